@@ -344,20 +344,38 @@ def encode_feedback(entry: Feedback) -> str:
 
 def decode_feedback(text: str | bytes) -> Feedback:
     """Raises Malformed on anything that is not a feedback with a known code."""
-    data = decode_object(text)
+    return _feedback(decode_object(text))
+
+
+def _feedback(data: Mapping[str, Any]) -> Feedback:
     try:
         code = FeedbackCode(data["code"])
     except (KeyError, ValueError):
         raise Malformed(f"feedback code {data.get('code')!r} is unknown") from None
-    time_s = None if data.get("time") is None else _finite(data, "time")
     return Feedback(
         code,
         _text(data, "message"),
         None if data.get("id") is None else _text(data, "id"),
-        time_s,
+        None if data.get("time") is None else _finite(data, "time"),
         _text(data, "level"),
         _text(data, "from"),
     )
+
+
+def feedback_fields(entry: Feedback) -> dict[str, str]:
+    """The same fields as flat text, as an entry of the feedback stream holds them."""
+    return {name: str(value) for name, value in json.loads(encode_feedback(entry)).items()}
+
+
+def feedback_from_fields(fields: Mapping[bytes, bytes]) -> Feedback:
+    """Reads an entry of the feedback stream. Raises Malformed as :func:`decode_feedback` does."""
+    data: dict[str, Any] = {name.decode(): value.decode(errors="replace") for name, value in fields.items()}
+    if "time" in data:
+        try:
+            data["time"] = float(data["time"])
+        except ValueError:
+            raise Malformed("'time' must be a number") from None
+    return _feedback(data)
 
 
 # ------------------------------------------------------------------ what the robot publishes
