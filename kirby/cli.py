@@ -1,0 +1,166 @@
+"""The command line.
+
+Exit status: 0 it worked, 1 it ran and failed, 2 wrong use. Errors are one line on standard error.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import click
+import typer
+
+from .errors import KirbyError
+
+app = typer.Typer(
+    name="kirby",
+    help="Steer a mobile robot with English and gesture through a shared virtual world.",
+    context_settings={"help_option_names": ["-h", "--help"]},
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    add_completion=False,
+)
+
+WorldOption = Annotated[
+    str | None, typer.Option("--world", metavar="NAME|FILE", help="A world by name, or a YAML file of your own.")
+]
+RedisOption = Annotated[
+    str | None, typer.Option("--redis", metavar="URL", help="A Redis to use instead of one that Kirby starts.")
+]
+SpeedOption = Annotated[
+    str | None,
+    typer.Option("--speed", metavar="X", help="Simulated seconds a second, or 'max' (1; from a pipe, max)."),
+]
+StateOption = Annotated[
+    Path | None, typer.Option("--state", metavar="DIR", help="Where Kirby keeps its queue and history.")
+]
+SeedOption = Annotated[int | None, typer.Option("--seed", help="Seed of the simulated noise (the world's).")]
+NamespaceOption = Annotated[str, typer.Option("--namespace", help="Prefix of every key, one for each robot.")]
+
+
+@app.callback(invoke_without_command=True, epilog="Example: kirby --world figure3")
+def _main(
+    context: typer.Context,
+    world: WorldOption = None,
+    redis: RedisOption = None,
+    speed: SpeedOption = None,
+    state: StateOption = None,
+    seed: SeedOption = None,
+    namespace: NamespaceOption = "",
+) -> None:
+    if context.invoked_subcommand is None:
+        repl(world, redis, speed, state, seed, namespace)
+
+
+@app.command(epilog="Example: printf 'go forward\\nturn left\\n' | kirby repl --world figure3")
+def repl(
+    world: WorldOption = None,
+    redis: RedisOption = None,
+    speed: SpeedOption = None,
+    state: StateOption = None,
+    seed: SeedOption = None,
+    namespace: NamespaceOption = "",
+) -> None:
+    """Talk to Kirby. Lines from a pipe are said in turn, each when the robot is idle or asks something."""
+    from .session import Options, talk
+
+    options = Options(world, redis, speed, state, seed, namespace)
+    raise typer.Exit(0 if talk(options) else 1)
+
+
+@app.command(epilog="Example: kirby parse --json turn left forty five degrees")
+def parse(
+    text: Annotated[list[str] | None, typer.Argument(help="What is said; without it, a line each from a pipe.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object a line.")] = False,
+    world: WorldOption = None,
+) -> None:
+    """Show what Kirby makes of an utterance: the act, its logical form, and the commands that would be sent."""
+    from .understanding import show_reading, understanding
+
+    read = understanding(world)
+    utterances = [" ".join(text)] if text else (line.rstrip("\r\n") for line in sys.stdin)
+    understood = True
+    for utterance in utterances:
+        record = read(utterance)
+        understood = understood and record["status"] != "not_understood"
+        print(json.dumps(record, ensure_ascii=False) if as_json else show_reading(record), flush=sys.stdout.isatty())
+    raise typer.Exit(0 if understood or as_json else 1)
+
+
+@app.command(epilog="Example: kirby corpus my_commands.yaml")
+def corpus(
+    files: Annotated[list[Path] | None, typer.Argument(help="Corpora to run; without them, Kirby's own.")] = None,
+) -> None:
+    """Run utterance -> command corpora; a failing case shows what was expected and what came, step by step."""
+    from .corpus import run_corpora
+
+    raise typer.Exit(0 if run_corpora(tuple(files or ())) else 1)
+
+
+@app.command(epilog="Example: kirby robot --redis redis://localhost:6379 --world figure3")
+def robot(
+    redis: RedisOption = None,
+    world: WorldOption = None,
+    speed: SpeedOption = None,
+    state: StateOption = None,
+    seed: SeedOption = None,
+    namespace: NamespaceOption = "",
+) -> None:
+    """Run the robot's side alone, for any client of the bridge."""
+    from .session import Options, run_robot
+
+    run_robot(Options(world, redis, speed or "1", state, seed, namespace))
+
+
+@app.command(epilog="Example: kirby lexicon show fiducial")
+def lexicon(
+    action: Annotated[str, typer.Argument(metavar="check|show|words", help="What to do.")] = "check",
+    word: Annotated[str | None, typer.Argument(help="The word to show.")] = None,
+    folder: Annotated[Path | None, typer.Option("--folder", help="Another lexicon than Kirby's.")] = None,
+) -> None:
+    """Check the lexicon, show the entries of a word, or list every word Kirby knows."""
+    from .lexicon import run_lexicon
+
+    raise typer.Exit(0 if run_lexicon(action, word, folder) else 1)
+
+
+@app.command(epilog="Example: kirby bench simulation --json")
+def bench(
+    name: Annotated[str | None, typer.Argument(help="Which benchmark; without it, their names.")] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="The figures as one JSON object.")] = False,
+) -> None:
+    """Run a benchmark and print its figures, as ratios to something measured in the same run."""
+    from .bench import run_bench
+
+    run_bench(name, as_json)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """The console script. Never returns: the process ends with the status this module's docstring gives."""
+    from .rooms import check_rooms
+
+    try:
+        check_rooms()
+        status: Any = app(args=arguments, prog_name="kirby", standalone_mode=False)
+    except click.exceptions.NoArgsIsHelpError as error:
+        error.show()
+        status = 2
+    except click.UsageError as error:
+        where = error.ctx.command_path if error.ctx else "kirby"
+        status = _fail(f"{error.format_message()} (see {where} --help)", 2)
+    except (click.Abort, KeyboardInterrupt):
+        status = 130
+    except BrokenPipeError:
+        sys.stderr.close()  # the reader left; there is no one to tell
+        status = 1
+    except KirbyError as error:
+        status = _fail(str(error), error.exit_status)
+    sys.exit(status if isinstance(status, int) else 0)
+
+
+def _fail(message: str, status: int) -> int:
+    print(f"kirby: {' '.join(message.split())}", file=sys.stderr)
+    return status
