@@ -27,7 +27,6 @@ from .state import (
     Reset,
     Resumed,
     Started,
-    Target,
     Tell,
 )
 from .stored import state_from_json, state_to_json
@@ -56,7 +55,6 @@ __all__ = [
     "Reset",
     "Resumed",
     "Started",
-    "Target",
     "Tell",
     "handle",
     "state_from_json",

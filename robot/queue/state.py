@@ -7,8 +7,7 @@ from enum import Enum
 
 from robot.geometry import Pose
 from robot.messages import Command, Control, Envelope, Feedback, Patrol, Turn
-
-from ..navigation.goals import Goal as Target
+from robot.navigation.goals import Goal as Target
 
 
 # ------------------------------------------------------------------ state

@@ -18,8 +18,9 @@ from robot.messages import (
     feedback,
     ideal_end,
 )
+from robot.navigation.goals import Goal as Target
+from robot.navigation.goals import Reach, Rotate
 
-from ..navigation.goals import Reach, Rotate
 from .patrol import vertex
 from .state import (
     Begin,
@@ -32,7 +33,6 @@ from .state import (
     Mode,
     Photograph,
     QueueState,
-    Target,
     Tell,
 )
 

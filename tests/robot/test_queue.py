@@ -54,8 +54,9 @@ class Bench:
 
     def arrive(self):
         target = self.target
-        yaw = self.pose.yaw_rad if target.yaw_rad is None else target.yaw_rad
-        place = target.place if isinstance(target, Reach) else self.pose.point
+        place, yaw = self.pose.point, self.pose.yaw_rad + getattr(target, "angle_rad", 0.0)
+        if isinstance(target, Reach):
+            place, yaw = target.place, yaw if target.yaw_rad is None else target.yaw_rad
         self.pose = Pose(place.x_m, place.y_m, yaw)
         return self.event(Arrived())
 
