@@ -6,6 +6,7 @@ and Robotic Systems 40, 2004); splitting is Ramer's and Douglas-Peucker's. All i
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -47,7 +48,7 @@ def extract_segments(scan: Scan) -> tuple[Segment, ...]:
         bounds = [*(breaks - breaks[0]).tolist(), len(points)]
     else:
         bounds = [0, len(points)]
-    pieces = [piece for first, end in zip(bounds, bounds[1:], strict=False) for piece in _split(points, first, end)]
+    pieces = [piece for first, end in itertools.pairwise(bounds) for piece in _split(points, first, end)]
     return tuple(s for s in (_fit(points[first:end]) for first, end in _join(points, pieces)) if s is not None)
 
 

@@ -136,7 +136,7 @@ class WallMap:
 
     def __iter__(self) -> Iterator[Wall]:
         """The walls, oldest first."""
-        return (self._walls[id] for id in sorted(self._walls))
+        return (self._walls[number] for number in sorted(self._walls))
 
     def __len__(self) -> int:
         return len(self._walls)
@@ -180,8 +180,8 @@ class WallMap:
         near: dict[int, None] = {}
         for cell in _cells(wall, HASH_REACH_M):
             near.update(self._hash.get(cell, {}))
-        found = ((mismatch_m(self._walls[id], wall, self._sided), id) for id in near)
-        best = min(((offset_m, id) for offset_m, id in found if offset_m is not None), default=None)
+        found = ((mismatch_m(self._walls[number], wall, self._sided), number) for number in near)
+        best = min(((offset_m, number) for offset_m, number in found if offset_m is not None), default=None)
         return None if best is None else self._walls[best[1]]
 
     def _put(self, wall: Wall) -> None:

@@ -137,9 +137,9 @@ class KinematicBody:
         return float(distance), float(turn)
 
     def _measure(self) -> Scan:
-        angles = np.arange(BEAMS) * (math.tau / BEAMS)
+        angles: NDArray[np.float64] = np.arange(BEAMS, dtype=np.float64) * (math.tau / BEAMS)
         ranges = cast_rays(self._walls, self.pose, angles)
-        ranges = ranges + self._random.normal(0.0, 1.0, BEAMS) * self._noise.range_m
+        ranges += self._random.normal(0.0, 1.0, BEAMS) * self._noise.range_m
         seen = (ranges >= MIN_RANGE_M) & (ranges <= MAX_RANGE_M)
         return Scan(self.time_s, angles, np.where(seen, ranges, np.inf), MIN_RANGE_M, MAX_RANGE_M)
 
