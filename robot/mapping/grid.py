@@ -21,6 +21,8 @@ MISS_LOG_ODDS = -0.4
 MIN_LOG_ODDS = -2.0
 MAX_LOG_ODDS = 3.5
 OCCUPIED_LOG_ODDS = 0.5
+# Without an echo a beam counts as free to this far before the greatest range: a wall just there may stay unheard.
+NO_ECHO_MARGIN_M = 0.1
 RESERVE_CELLS = 100  # room left on every side whenever the array has to grow
 
 
@@ -103,7 +105,7 @@ class OccupancyGrid:
     def update(self, pose: Pose, scan: Scan) -> None:
         """Enter one scan taken at ``pose``: every cell changes at most once, and an echo outweighs passing beams."""
         echo = np.isfinite(scan.ranges_m) & (scan.ranges_m <= scan.max_range_m)
-        reach_m = np.where(echo, scan.ranges_m, scan.max_range_m)
+        reach_m = np.where(echo, scan.ranges_m, scan.max_range_m - NO_ECHO_MARGIN_M)
         patch = self.window_around(pose.point, scan.max_range_m + self.resolution_m)
         self._make_room(patch)
         bearings = scan.angles_rad + pose.yaw_rad

@@ -1,19 +1,15 @@
-"""From goals to wheel commands: costmap, planning, following, turning, recovery, and patrols."""
+"""From goals to wheel commands: costmap, planning, following, turning and recovery."""
 
 from .costmap import Costmap, build_costmap
 from .goals import Drive, Goal, Phase, Reach, Reason, Rotate, State
 from .navigator import Navigator
-from .patrol import Mark, PatrolState, PatrolStep
-from .planner import Plan, plan, reachable
+from .planner import Plan, plan
 
 __all__ = [
     "Costmap",
     "Drive",
     "Goal",
-    "Mark",
     "Navigator",
-    "PatrolState",
-    "PatrolStep",
     "Phase",
     "Plan",
     "Reach",
@@ -22,5 +18,4 @@ __all__ = [
     "State",
     "build_costmap",
     "plan",
-    "reachable",
 ]

@@ -97,7 +97,8 @@ def _rounded(window: Window, factor: int) -> Window:
 
 def _sampled(cells: NDArray[np.float32], factor: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Which cells are occupied and which unknown, ``factor`` by ``factor`` taken together."""
-    occupied, unknown = cells > OCCUPIED_LOG_ODDS, cells == 0.0
+    occupied: NDArray[np.bool_] = np.greater(cells, OCCUPIED_LOG_ODDS)
+    unknown: NDArray[np.bool_] = np.equal(cells, 0.0)
     if factor == 1:
         return occupied, unknown
     blocks = (cells.shape[0] // factor, factor, cells.shape[1] // factor, factor)

@@ -41,12 +41,6 @@ def plan(costmap: Costmap, start: Point, goal: Point) -> Plan | Reason:
     return Reason.CUT_OFF if found is None else Plan(found.path, found.cost_m, place)
 
 
-def reachable(costmap: Costmap, start: Point, places: tuple[Point, ...]) -> tuple[bool, ...]:
-    """Which of ``places`` the map leaves a way to, unknown space included."""
-    costs, _ = MCP_Geometric(costmap.costs).find_costs([costmap.cell_of(start)])
-    return tuple(bool(np.isfinite(costs[costmap.cell_of(place)])) for place in places)
-
-
 def _plan_to(costmap: Costmap, start: Point, goal: Point, goal_cell: Cell) -> Plan | None:
     search = MCP_Geometric(costmap.costs)
     costs, _ = search.find_costs([costmap.cell_of(start)], [goal_cell])

@@ -1,9 +1,10 @@
-"""Reaching a place: plan, follow, replan as the map grows, recover when stuck, give up when it is proven or hopeless."""
+"""Reaching a place: plan, follow, replan as the map grows, recover when stuck, give up when hopeless."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -118,7 +119,7 @@ class Reaching:
             return True
         rest = self._follower.rest(view.pose)
         costmap = build_costmap(view.grid, view.pose.point, rest, self._limits.radius_m)
-        rest_m = sum(costmap.line_cost(a, b) for a, b in zip(rest, rest[1:], strict=False))
+        rest_m = sum(costmap.line_cost(a, b) for a, b in pairwise(rest))
         return found.cost_m < BETTER_SHARE * rest_m
 
     def _plan_backwards(self, view: View) -> bool:
@@ -140,7 +141,7 @@ class Reaching:
         points = view.surroundings.points
         way_m = 0.0
         rest = self._follower.rest(view.pose)
-        for start, end in zip(rest, rest[1:], strict=False):
+        for start, end in pairwise(rest):
             leg_m = start.distance_to(end)
             if way_m > LOOK_AHEAD_M or leg_m == 0.0:
                 break
