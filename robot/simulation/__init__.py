@@ -1,0 +1,1 @@
+"""The parts of the simulated body: physics engine, stage, chassis and senses."""
