@@ -13,7 +13,7 @@ from typing import Annotated, Any
 import click
 import typer
 
-from .errors import KirbyError
+from .errors import KirbyError, UsageError
 
 app = typer.Typer(
     name="kirby",
@@ -157,7 +157,7 @@ def main(arguments: list[str] | None = None) -> None:
         sys.stderr.close()  # the reader left; there is no one to tell
         status = 1
     except KirbyError as error:
-        status = _fail(str(error), error.exit_status)
+        status = _fail(str(error), 2 if isinstance(error, UsageError) else 1)
     sys.exit(status if isinstance(status, int) else 0)
 
 

@@ -1,15 +1,11 @@
-"""What the application cannot go on from: its text is one line that says what to do."""
+"""What the command line cannot go on from."""
 
 from __future__ import annotations
 
+from voxml.errors import KirbyError
 
-class KirbyError(Exception):
-    """The base of Kirby's own exceptions; ``exit_status`` is the command line's."""
-
-    exit_status = 1
+__all__ = ["KirbyError", "UsageError"]
 
 
 class UsageError(KirbyError):
     """Something the caller wrote cannot be: a file that is not there, a speed that is no number."""
-
-    exit_status = 2

@@ -49,6 +49,7 @@ from ._fields import (
     read_text,
     read_whole,
 )
+from .errors import KirbyError
 
 FIDUCIAL_ID_MAX = 999  # ArUco 5x5_1000, the dictionary on the wire
 MARKER_SIZE_M = 0.10  # "approximately 10 x 10cm" (Krajovic et al., section 3.2.1)
@@ -56,7 +57,7 @@ WALL_HEIGHT_M = 0.60
 WALL_THICKNESS_M = 0.05
 
 
-class SceneError(ValueError):
+class SceneError(KirbyError):
     """A world file that cannot be used; ``str()`` of it is one line naming the file, the field and the remedy."""
 
 

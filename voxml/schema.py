@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
+from .errors import KirbyError
 from .terms import Form, Quantity, Term
 
 
-class VoxmlError(ValueError):
+class VoxmlError(KirbyError):
     """A lexicon that cannot be used; ``str()`` names file, element and remedy."""
 
 
