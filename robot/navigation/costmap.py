@@ -102,7 +102,9 @@ def _sampled(cells: NDArray[np.float32], factor: int) -> tuple[NDArray[np.bool_]
     if factor == 1:
         return occupied, unknown
     blocks = (cells.shape[0] // factor, factor, cells.shape[1] // factor, factor)
-    return occupied.reshape(blocks).any(axis=(1, 3)), unknown.reshape(blocks).all(axis=(1, 3))
+    return np.maximum.reduce(occupied.reshape(blocks), axis=(1, 3)), np.minimum.reduce(
+        unknown.reshape(blocks), axis=(1, 3)
+    )
 
 
 def _distances(occupied: NDArray[np.bool_], resolution_m: float) -> NDArray[np.float32]:

@@ -12,7 +12,8 @@ from .goals import Phase, Rotate, sense
 SPEED_SHARE = 0.7  # of the body's limit: the rest is for correction
 BRAKE_SHARE = 0.4  # of the body's angular acceleration
 ESTIMATED_RAD = math.radians(3.0)
-VERIFIED_RAD = math.radians(0.3)
+TRIMMED_RAD = math.radians(0.12)  # where trimming ends
+VERIFIED_RAD = math.radians(0.5)  # where it would begin again: farther off than the heading's estimate jitters
 SETTLE_S = 0.3  # longer than one period of the laser, so that a corrected heading has come in
 VERIFY_GAIN = 2.0  # radians a second per radian
 VERIFY_MIN_RADPS = 0.04
@@ -27,6 +28,7 @@ class Rotation:
         self._limits = limits
         self._yaw_rad = yaw_rad
         self._settled_s = 0.0
+        self._trimming = True
         self.phase = Phase.ESTIMATE_ROTATION
         self.remaining_rad = goal.angle_rad
         if goal.final_yaw_rad is not None:
@@ -48,7 +50,8 @@ class Rotation:
         if self.phase is Phase.ESTIMATE_ROTATION and abs(self.remaining_rad) > ESTIMATED_RAD:
             return turn_speed(self.remaining_rad, self._limits)
         self.phase = Phase.VERIFY_ROTATION
-        if abs(self.remaining_rad) <= VERIFIED_RAD:
+        self._trimming = abs(self.remaining_rad) > (TRIMMED_RAD if self._trimming else VERIFIED_RAD)
+        if not self._trimming:
             self._settled_s += period_s
             return 0.0
         self._settled_s = 0.0
