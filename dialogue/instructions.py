@@ -1,0 +1,122 @@
+"""Instructions: fused with pointing, planned, and sent; or a question, an offer or a refusal in their place."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from grammar.acts import DialogueAct, Function
+from grammar.forms import Form, Term
+from grounding import Ambiguous, Reason, Unresolved
+from robot.messages import Command, Control
+
+from .events import Tone
+from .fusion import demonstratives, fuse, recent
+from .planning import Plan, Refusal, Refused, plan
+from .session import Question
+from .table import Activity, Trigger
+from .turn import Turn
+from .wording import command_words, listed, name_entities, refused, unresolved
+
+STOP = Term("stop")
+
+
+def stops(form: Form) -> bool:
+    """Whether an instruction begins with stopping."""
+    match form:
+        case Term(pred="stop", args=()):
+            return True
+        case Term(pred="seq", args=(first, *_)):
+            return stops(first)
+        case _:
+            return False
+
+
+def obey(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
+    """Carry out instructions, or say why not. A repaired reading is confirmed before anything moves."""
+    turn.settle()
+    repaired = [act.repaired for act in acts if act.repaired is not None]
+    if repaired:
+        sure = tuple(replace(act, repaired=None) for act in acts)
+        turn.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {repaired[0]}?", sure))
+        return
+    _carry_out(turn, _fused(turn, acts, time_s))
+
+
+def _fused(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> tuple[DialogueAct, ...]:
+    """Demonstratives take the newest pointings, one each; what was used is used up."""
+    pointings = recent(turn.session.pointings, time_s)
+    wanted = sum(demonstratives(act.form) for act in acts)
+    if not wanted or not pointings:
+        return acts
+    pointings = pointings[-wanted:]
+    fused = []
+    for act in acts:
+        form, pointings = fuse(act.form, pointings)
+        fused.append(replace(act, form=form))
+    turn.update(pointings=())
+    return tuple(fused)
+
+
+def _carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
+    world = turn.session.world.with_robot(turn.session.start)
+    outcome = plan(tuple(act.form for act in acts), world, turn.lexicon)
+    match outcome:
+        case Plan():
+            _send(turn, outcome)
+        case Ambiguous(form, candidates):
+            ids = tuple(entity.id for entity in candidates)
+            text = f"Which one: {listed(name_entities(candidates, world))}?"
+            turn.highlight(ids, ())
+            turn.ask(Trigger.ASK_REFERENT, Question(text, acts, form, ids))
+        case Unresolved(Reason.NEEDS_POINTING, form):
+            turn.ask(Trigger.ASK_PLACE, Question(unresolved(outcome), acts, form))
+        case Unresolved():
+            turn.say(unresolved(outcome), Tone.REFUSAL)
+        case Refused(Refusal.NO_SIDE, form):
+            turn.ask(Trigger.ASK_SIDE, Question(refused(outcome), acts, form))
+        case Refused():
+            turn.say(refused(outcome), Tone.REFUSAL)
+
+
+def _send(turn: Turn, made: Plan) -> None:
+    """Send a plan, unless the robot would refuse it where it is: then offer what would have to be done first."""
+    if not made.commands:
+        return
+    moving = [c for c in made.commands if not isinstance(c, Control)]
+    turn.highlight(tuple(entity.id for entity in made.entities), made.places)
+    turn.update(
+        spoken_of=tuple(entity.id for entity in made.entities) or turn.session.spoken_of,
+        place=made.places[-1] if made.places else turn.session.place,
+    )
+    first = _in_the_way(turn) if moving else None
+    if first is None:
+        turn.dispatch(made.commands)
+        return
+    offer, command = first
+    order = " and ".join(command_words(c) for c in made.commands)
+    turn.ask(Trigger.ASK_CONFIRMATION, Question(f"{offer} and {order}?", commands=(command, *made.commands)))
+
+
+def _in_the_way(turn: Turn) -> tuple[str, Command] | None:
+    """What keeps the robot from new movements, as an offer to drop it, and the command that does."""
+    if turn.session.activity is Activity.PATROLLING:
+        return "I am patrolling. Shall I stop the patrol", Control.STOP_PATROL
+    if turn.session.activity in (Activity.PAUSED, Activity.LEFT_OVER):
+        current = next((task for task in turn.session.tasks if task.moves), None)
+        on = f" on '{command_words(current.command)}'" if current else ""
+        return f"I am paused{on}. Shall I drop it", Control.CANCEL_ALL
+    return None
+
+
+def confirm(turn: Turn, question: Question, time_s: float) -> None:
+    """The answer was yes."""
+    turn.settle()
+    if question.commands:
+        turn.dispatch(question.commands)
+    else:
+        obey(turn, question.acts, time_s)
+
+
+def instruct(form: Form) -> DialogueAct:
+    """An instruction that was not said in words."""
+    return DialogueAct(Function.INSTRUCT, form, (0, 0))

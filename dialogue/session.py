@@ -1,0 +1,82 @@
+"""Everything that a conversation remembers, as one frozen value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from grammar.acts import DialogueAct
+from grammar.forms import Form
+from grounding import World
+from robot.geometry import Point, Pose, wrap_angle
+from robot.messages import Command, Control
+
+from .events import Pointing
+from .table import Activity, State
+
+# A robot this near to where its last movement ideally ended is reckoned from that ideal, as the robot itself does.
+_IDEAL_WITHIN_M = 0.15
+_IDEAL_WITHIN_RAD = 0.175
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A command that was sent and has not ended yet."""
+
+    id: str
+    command: Command
+
+    @property
+    def moves(self) -> bool:
+        """Whether it takes its turn in the robot's queue, rather than acting at once."""
+        return not isinstance(self.command, Control) or self.command in (Control.GO_BACK, Control.TAKE_PICTURE)
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What Kirby asked, and what it does once it knows.
+
+    ``acts`` wait for the answer, which takes the place of ``hole`` in their forms; ``candidates`` are ids of things.
+    ``commands`` wait for a yes instead, where nothing is left to be worked out.
+    """
+
+    text: str
+    acts: tuple[DialogueAct, ...] = ()
+    hole: Form | None = None
+    candidates: tuple[str, ...] = ()
+    commands: tuple[Command, ...] = ()
+    asked: int = 1
+
+
+_UNKNOWN = World()
+
+
+@dataclass(frozen=True, slots=True)
+class Session:
+    """One conversation. ``ideal`` is where the robot's last movement ends, or ended, if nothing goes wrong.
+
+    ``pointings`` are those not yet used, the newest last. ``spoken_of`` are the things last meant, by id, and
+    ``place`` the last place.
+    """
+
+    state: State = State.IDLE
+    activity: Activity = Activity.RESTING
+    world: World = _UNKNOWN
+    located: bool = False
+    tasks: tuple[Task, ...] = ()
+    sent: int = 0
+    ideal: Pose | None = None
+    question: Question | None = None
+    pointings: tuple[Pointing, ...] = ()
+    spoken_of: tuple[str, ...] = ()
+    place: Point | None = None
+
+    @property
+    def start(self) -> Pose:
+        """Where the next movement will begin."""
+        here, ideal = self.world.robot, self.ideal
+        if ideal is None or self.activity in (Activity.STRAYED, Activity.LEFT_OVER):
+            return here
+        if any(task.moves for task in self.tasks):
+            return ideal
+        astray = here.point.distance_to(ideal.point) > _IDEAL_WITHIN_M
+        return here if astray or abs(wrap_angle(here.yaw_rad - ideal.yaw_rad)) > _IDEAL_WITHIN_RAD else ideal

@@ -1,0 +1,111 @@
+"""What stands in the world, one value a thing and one numpy column a property, so that many are looked at at once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robot.geometry import Point, Pose
+
+FIDUCIAL = "fiducial"
+_MARKER_SIZE_M = (0.1, 0.1, 0.1)
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class StandsFor:
+    """What a fiducial stands for: a voxeme's type and attributes, from the world's file or as it was taught."""
+
+    fiducial_id: str
+    type: str
+    attributes: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+    size_m: tuple[float, float, float] = _MARKER_SIZE_M
+
+
+@dataclass(frozen=True, slots=True)
+class Entity:
+    """A thing that was perceived. ``pose`` is where its front is and the way it looks, map frame.
+
+    For a thing with a fiducial that is the marker's own pose, and ``id`` is the fiducial's.
+    """
+
+    id: str
+    type: str
+    pose: Pose
+    attributes: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+    size_m: tuple[float, float, float] = _MARKER_SIZE_M
+    fiducial_id: str | None = None
+
+    @property
+    def point(self) -> Point:
+        return self.pose.point
+
+
+@dataclass(frozen=True)
+class Entities:
+    """Every thing perceived so far, in the order in which it was, with its columns (computed once, when first used)."""
+
+    items: tuple[Entity, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    @cached_property
+    def index(self) -> dict[str, int]:
+        """Row by id."""
+        return {entity.id: row for row, entity in enumerate(self.items)}
+
+    def get(self, id: str) -> Entity | None:
+        """The thing with this id."""
+        row = self.index.get(id)
+        return None if row is None else self.items[row]
+
+    @cached_property
+    def xy_m(self) -> NDArray[np.float64]:
+        """Places, shape (n, 2), map frame."""
+        return np.array([(e.pose.x_m, e.pose.y_m) for e in self.items], dtype=np.float64).reshape(-1, 2)
+
+    @cached_property
+    def yaw_rad(self) -> NDArray[np.float64]:
+        """The ways they look, shape (n,)."""
+        return np.array([e.pose.yaw_rad for e in self.items], dtype=np.float64)
+
+    @cached_property
+    def marked(self) -> Mask:
+        """Which carry a fiducial, shape (n,)."""
+        return np.array([e.fiducial_id is not None for e in self.items], dtype=np.bool_)
+
+    @cached_property
+    def rows_by_type(self) -> dict[str, NDArray[np.intp]]:
+        """Rows of each type that occurs."""
+        return _grouped([(e.type,) for e in self.items])
+
+    @cached_property
+    def rows_by_attribute(self) -> dict[str, NDArray[np.intp]]:
+        """Rows of each attribute that occurs."""
+        return _grouped([e.attributes for e in self.items])
+
+    @cached_property
+    def rows_by_name(self) -> dict[str, NDArray[np.intp]]:
+        """Rows of each name that was given, in lower case."""
+        return _grouped([tuple(name.lower() for name in e.names) for e in self.items])
+
+    def mask(self, rows: NDArray[np.intp]) -> Mask:
+        """Shape (n,), true at ``rows``."""
+        result = np.zeros(len(self.items), dtype=np.bool_)
+        result[rows] = True
+        return result
+
+
+def _grouped(keys_of_rows: list[tuple[str, ...]]) -> dict[str, NDArray[np.intp]]:
+    groups: dict[str, list[int]] = {}
+    for row, keys in enumerate(keys_of_rows):
+        for key in keys:
+            groups.setdefault(key, []).append(row)
+    return {key: np.array(rows, dtype=np.intp) for key, rows in groups.items()}

@@ -1,0 +1,255 @@
+"""Logical forms meet the world: what a noun phrase, a place or a heading denotes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from grammar.forms import Form, Name, Term
+from robot.geometry import Point
+from voxml.vocabulary import Lexicon
+
+from .descriptions import (
+    INDEFINITE,
+    LAST,
+    ORDINALS,
+    PLURAL,
+    Description,
+    attachments,
+    describe,
+    number_of,
+)
+from .entities import FIDUCIAL, Entity, Mask
+from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
+from .pointing import likely_rows, pointed_place, pointed_ray, read_point
+from .relations import BINARY, REGIONS, between, distances_m, local_m, meeting_order
+from .world import World
+
+COMPASS_RAD = {
+    name: math.radians(45.0 * step)
+    for step, name in enumerate(("east", "northeast", "north", "northwest", "west", "southwest", "south", "southeast"))
+}
+"""Headings on the map: x is east (ROS REP-103, so that yaw 0 faces east), y north."""
+
+_ANYTHING = frozenset({"one", "object", "obstacle"})
+Rows = NDArray[np.intp]
+
+
+class _Fails(Exception):  # noqa: N818 - a result that ends the evaluation early, never seen outside
+    def __init__(self, outcome: Ambiguous | Unresolved) -> None:
+        self.outcome = outcome
+
+
+def resolve(form: Form, world: World, lexicon: Lexicon) -> Resolution:
+    """What ``form`` means in ``world``, for the robot where it stands there.
+
+    ``form`` is a noun phrase (-> entities), ``point(x,y)``, ``here``, ``there`` (-> a place), ``entity("id")``, a
+    quoted name, or a heading. Demonstratives need the ``pointed(...)`` that fusion puts into them. Of the
+    attachments of a chain of modifiers those that denote something are kept; only if two different things remain is it
+    ambiguous.
+    """
+    direct = _direct(form, world)
+    if direct is not None:
+        return direct
+    description = describe(form)
+    if description is None:
+        return Unresolved(Reason.NOT_A_PLACE, form)
+    return _described(description, world, lexicon)
+
+
+def _direct(form: Form, world: World) -> Resolution | None:
+    """Forms that need no search."""
+    place = read_point(form)
+    if place is not None:
+        return Grounded((place,))
+    match form:
+        case Name(text=name):
+            rows = world.entities.rows_by_name.get(name.lower(), np.array([], dtype=np.intp))
+            return _denoted(form, rows, world)
+        case Term(pred="entity", args=(Name(text=id),)):
+            entity = world.entities.get(id)
+            return Unresolved(Reason.NOTHING_FITS, form) if entity is None else Grounded((entity,))
+        case Term(pred="here", args=()):
+            return Grounded((world.robot.point,))
+        case Term(pred="there" | "here", args=(Term() as pointing,)):
+            return _pointed_at(form, pointing, world)
+        case Term(pred="there"):
+            return Unresolved(Reason.NEEDS_POINTING, form)
+        case Term(pred="it"):
+            return Unresolved(Reason.NO_ANTECEDENT, form)
+        case Term(pred="this" | "that", args=(Term(pred="way"), *rest)):
+            return _pointed_way(form, rest, world)
+        case Term(pred=heading, args=()) if heading in COMPASS_RAD:
+            return Grounded((Heading(COMPASS_RAD[heading]),))
+        case _:
+            return None
+
+
+def _pointed_at(form: Form, pointing: Term, world: World) -> Resolution:
+    place = pointed_place(pointing)
+    if place is not None:
+        return Grounded((place,))
+    every = np.arange(len(world.entities), dtype=np.intp)
+    return _denoted(form, likely_rows(pointing, world.entities, every), world, Reason.POINTED_ELSEWHERE)
+
+
+def _pointed_way(form: Form, rest: list[Form], world: World) -> Resolution:
+    """The direction of a ray, or from the robot to the place or thing that was pointed at."""
+    if not rest or not isinstance(rest[0], Term):
+        return Unresolved(Reason.NEEDS_POINTING, form)
+    ray = pointed_ray(rest[0])
+    if ray is not None:
+        return Grounded((Heading(ray[1]),))
+    target = _pointed_at(form, rest[0], world)
+    if not isinstance(target, Grounded):
+        return target
+    place = target.one.point if isinstance(target.one, Entity) else target.one
+    assert isinstance(place, Point)
+    return Grounded((Heading(world.robot.point.bearing_to(place)),))
+
+
+# ------------------------------------------------------------------ descriptions
+def _described(description: Description, world: World, lexicon: Lexicon) -> Resolution:
+    """Tries the attachments; the readings that denote are kept, and among them those that denote one thing."""
+    outcomes: list[Resolution] = []
+    for chain in attachments(description.modifiers):
+        try:
+            outcomes.append(_reading(description, chain, world, lexicon))
+        except _Fails as failure:
+            outcomes.append(failure.outcome)
+    grounded = {o.referents: o for o in outcomes if isinstance(o, Grounded)}
+    if len(grounded) == 1:
+        return next(iter(grounded.values()))
+    if grounded:
+        entities = {e.id: e for referents in grounded for e in referents if isinstance(e, Entity)}
+        return Ambiguous(description.form, tuple(entities.values()))
+    ambiguous = next((outcome for outcome in outcomes if isinstance(outcome, Ambiguous)), None)
+    return ambiguous or outcomes[0]
+
+
+def _reading(description: Description, chain: tuple[Term, ...], world: World, lexicon: Lexicon) -> Resolution:
+    mask = _noun_mask(description, world, lexicon)
+    for modifier in chain:
+        mask = mask & _modifier_mask(modifier, world, lexicon)
+    rows = np.flatnonzero(mask)
+    if description.ordering is not None:
+        rows = _ordered(description, rows, world)
+    if description.pointing is not None:
+        rows = likely_rows(description.pointing, world.entities, rows)
+        return _denoted(description.form, rows, world, Reason.POINTED_ELSEWHERE)
+    if description.determiner in PLURAL:
+        return _plural(description, rows, world)
+    if description.determiner in INDEFINITE and len(rows):
+        rows = rows[[np.argmin(_away_m(world, rows))]]
+    return _denoted(description.form, rows, world)
+
+
+def _denoted(form: Form, rows: Rows, world: World, otherwise: Reason = Reason.NOTHING_FITS) -> Resolution:
+    """One thing is meant, or a question arises, or nothing fits."""
+    if not len(rows):
+        return Unresolved(otherwise, form)
+    order = meeting_order(world.robot, world.entities.xy_m[rows])
+    entities = tuple(world.entities.items[row] for row in rows[order])
+    return Grounded(entities) if len(entities) == 1 else Ambiguous(form, entities)
+
+
+def _plural(description: Description, rows: Rows, world: World) -> Resolution:
+    if not len(rows):
+        return Unresolved(Reason.NOTHING_FITS, description.form)
+    if description.determiner == "both" and len(rows) != 2:
+        reason = Reason.TOO_FEW if len(rows) < 2 else Reason.NOTHING_FITS
+        return Unresolved(reason, description.form, len(rows))
+    nearest_first = rows[np.argsort(_away_m(world, rows), kind="stable")]
+    return Grounded(tuple(world.entities.items[row] for row in nearest_first))
+
+
+def _away_m(world: World, rows: Rows) -> NDArray[np.float64]:
+    return distances_m((world.robot.x_m, world.robot.y_m), world.entities.xy_m[rows])
+
+
+def _noun_mask(description: Description, world: World, lexicon: Lexicon) -> Mask:
+    mask = _type_mask(description.noun, world, lexicon)
+    for attribute in description.adjectives:
+        rows = world.entities.rows_by_attribute.get(attribute)
+        mask = mask & (world.entities.mask(rows) if rows is not None else np.zeros_like(mask))
+    return mask
+
+
+def _type_mask(noun: str, world: World, lexicon: Lexicon) -> Mask:
+    if noun in _ANYTHING:
+        return np.ones(len(world.entities), dtype=np.bool_)
+    rows = world.entities.rows_by_type.get(noun)
+    mask = np.zeros(len(world.entities), dtype=np.bool_) if rows is None else world.entities.mask(rows)
+    return mask | world.entities.marked if noun == FIDUCIAL else mask
+
+
+def _ordered(description: Description, rows: Rows, world: World) -> Rows:
+    """The one that an ordinal or superlative picks out of ``rows``; none where there is nothing to pick from."""
+    if not len(rows):
+        return rows
+    ordering = description.ordering
+    if ordering in ("nearest", "closest"):
+        return rows[[np.argmin(_away_m(world, rows))]]
+    if ordering in ("farthest", "furthest"):
+        return rows[[np.argmax(_away_m(world, rows))]]
+    along = rows[meeting_order(world.robot, world.entities.xy_m[rows])]
+    if ordering == LAST:
+        # The last one ahead: what lies behind was passed already, unless there is nothing else.
+        ahead = local_m(world.robot, world.entities.xy_m[along])[:, 0] >= 0
+        return along[ahead][-1:] if ahead.any() else along[-1:]
+    rank = ORDINALS.get(ordering or "", 1)
+    if rank > len(along):
+        raise _Fails(Unresolved(Reason.TOO_FEW, description.form, len(along)))
+    return along[rank - 1 : rank]
+
+
+def _modifier_mask(modifier: Term, world: World, lexicon: Lexicon) -> Mask:
+    """Which things a modifier holds of, shape (n,).
+
+    Raises:
+        _Fails: its landmark denotes nothing, or the modifier means nothing here.
+    """
+    number = number_of(modifier)
+    if number is not None:
+        return np.array([e.fiducial_id == number for e in world.entities.items], dtype=np.bool_)
+    region = _region(modifier)
+    if region is not None:
+        return REGIONS[region](local_m(world.robot, world.entities.xy_m))
+    if modifier.pred == "between" and len(modifier.args) == 2:
+        firsts, seconds = (_landmarks(arg, world, lexicon) for arg in modifier.args)
+        pairs = [(a, b) for a in firsts for b in seconds if a.id != b.id]
+        return _any([between(a.pose, b.pose, world.entities.xy_m) for a, b in pairs], world)
+    relation = BINARY.get(modifier.pred)
+    if relation is None or len(modifier.args) != 1:
+        raise _Fails(Unresolved(Reason.NOT_A_PLACE, modifier))
+    landmarks = _landmarks(modifier.args[0], world, lexicon)
+    return _any([relation(world.robot, landmark.pose, world.entities.xy_m) for landmark in landmarks], world)
+
+
+def _region(modifier: Term) -> str | None:
+    """The part of the robot's view in ``on(right)``, ``on(the(right))`` or ``ahead``."""
+    if not modifier.args:
+        return modifier.pred if modifier.pred in REGIONS else None
+    if modifier.pred not in ("on", "to", "at", "in", "from") or len(modifier.args) != 1:
+        return None
+    part = modifier.args[0]
+    while isinstance(part, Term) and len(part.args) == 1:
+        part = part.args[0]
+    return part.pred if isinstance(part, Term) and not part.args and part.pred in REGIONS else None
+
+
+def _landmarks(form: Form, world: World, lexicon: Lexicon) -> tuple[Entity, ...]:
+    """Everything a landmark's noun phrase may mean: the whole description tells which, so none is asked about."""
+    match resolve(form, world, lexicon):
+        case Grounded(referents):
+            return tuple(r for r in referents if isinstance(r, Entity))
+        case Ambiguous(_, candidates):
+            return candidates
+        case Unresolved() as failure:
+            raise _Fails(failure)
+
+
+def _any(masks: list[Mask], world: World) -> Mask:
+    return np.logical_or.reduce(masks) if masks else np.zeros(len(world.entities), dtype=np.bool_)

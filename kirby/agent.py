@@ -1,0 +1,158 @@
+"""Kirby for embedding: a dialogue engine that is told what is said, shown and sensed, and says what to do about it.
+
+    agent = Agent(world=my_scene)
+    for output in agent.hear("go to the first block on the right"):
+        ...
+
+Neither Redis nor pybullet is needed: the outputs are values, and a host's own robot is anything with ``send``.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Protocol
+
+from dialogue.events import (
+    Dispatch,
+    Event,
+    Gesture,
+    GestureKind,
+    Output,
+    PointedObject,
+    PointedPlace,
+    PointedRay,
+    Pointing,
+    RobotFeedback,
+    Tick,
+    Utterance,
+    WorldUpdate,
+)
+from dialogue.manager import DialogueManager
+from dialogue.session import Session, Task
+from dialogue.table import Activity, State
+from grammar import parse
+from grounding.world import World
+from robot.geometry import Point, Pose
+from robot.messages import Command, Feedback, Fiducials, Map, Odom
+from voxml.scene import Scene
+from voxml.vocabulary import Lexicon, load_lexicon
+
+
+class RobotPort(Protocol):
+    """What a host's robot must offer: take commands, with the ids under which their feedback is to come back."""
+
+    def send(self, commands: tuple[Command, ...], ids: tuple[str, ...]) -> None: ...
+
+
+class Agent:
+    """One conversation about one robot.
+
+    ``world`` says what each fiducial stands for (a scene: nothing is seen yet), or gives the whole world model.
+    ``clock`` is read only where a call gives no ``time_s``. Every method that takes something in returns the outputs.
+    """
+
+    def __init__(
+        self,
+        world: Scene | World | None = None,
+        lexicon: Lexicon | None = None,
+        robot: RobotPort | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        model = World.unexplored(world) if isinstance(world, Scene) else world or World()
+        self._lexicon = lexicon or load_lexicon()
+        self._manager = self._manage(Session(world=model))
+        self._robot = robot
+        self._clock = clock
+
+    def _manage(self, session: Session) -> DialogueManager:
+        return DialogueManager(self._lexicon, lambda text: parse(text, self._lexicon), session)
+
+    # -------------------------------------------------------------- in
+    def hear(self, text: str, time_s: float | None = None, confidence: float = 1.0) -> tuple[Output, ...]:
+        """Someone said or typed something; ``confidence`` in [0, 1] is the recogniser's."""
+        return self.handle(Utterance(text, self._time(time_s), confidence))
+
+    def point(
+        self,
+        at: Point | str | PointedRay,
+        time_s: float | None = None,
+        spread_m: float = 0.0,
+        spread_rad: float = 0.0,
+    ) -> tuple[Output, ...]:
+        """Someone points at a place, at a thing by its id, or along a ray (map frame)."""
+        match at:
+            case Point():
+                target: PointedPlace | PointedObject | PointedRay = PointedPlace(at)
+            case str():
+                target = PointedObject(at)
+            case PointedRay():
+                target = at
+        return self.handle(Pointing(target, self._time(time_s), spread_m, spread_rad))
+
+    def gesture(self, kind: GestureKind | str, time_s: float | None = None) -> tuple[Output, ...]:
+        """Someone makes a gesture of the default set, or a learned one by its name."""
+        return self.handle(Gesture(kind, self._time(time_s)))
+
+    def feedback(self, feedback: Feedback, time_s: float | None = None) -> tuple[Output, ...]:
+        """The robot says something."""
+        return self.handle(RobotFeedback(feedback, self._time(time_s)))
+
+    def world(
+        self,
+        odom: Odom | None = None,
+        map: Map | None = None,
+        fiducials: Fiducials | None = None,
+        time_s: float | None = None,
+    ) -> tuple[Output, ...]:
+        """The robot senses something; what is not given is unchanged."""
+        return self.handle(WorldUpdate(self._time(time_s), odom, map, fiducials))
+
+    def tick(self, time_s: float | None = None) -> tuple[Output, ...]:
+        """Time passes."""
+        return self.handle(Tick(self._time(time_s)))
+
+    def handle(self, event: Event) -> tuple[Output, ...]:
+        """Any event. Commands among the outputs have been sent to the robot, if there is one."""
+        outputs = self._manager.handle(event)
+        if self._robot is not None:
+            for output in outputs:
+                if isinstance(output, Dispatch):
+                    self._robot.send(output.commands, output.ids)
+        return outputs
+
+    # -------------------------------------------------------------- state
+    @property
+    def session(self) -> Session:
+        """Everything that is remembered."""
+        return self._manager.session
+
+    @property
+    def state(self) -> str:
+        """Where the conversation is, in words: ``idle``, ``executing``, ``awaiting choice``, ..."""
+        return self.session.state.value
+
+    @property
+    def asking(self) -> bool:
+        """Whether an answer is waited for."""
+        return self.session.state.value.startswith("awaiting")
+
+    @property
+    def busy(self) -> bool:
+        """Whether the robot is still at what it was told, and will go on by itself."""
+        waits = self.asking or self.session.activity is Activity.PAUSED
+        acting = any(not task.moves for task in self.session.tasks)
+        return acting or (not waits and (bool(self.session.tasks) or self.session.state is not State.IDLE))
+
+    @property
+    def pose(self) -> Pose | None:
+        """Where the robot is; None before it has said so."""
+        return self.session.world.robot if self.session.located else None
+
+    @property
+    def queue(self) -> tuple[Task, ...]:
+        """The commands that were sent and have not ended, in order."""
+        return self.session.tasks
+
+    def _time(self, time_s: float | None) -> float:
+        return self._clock() if time_s is None else time_s
