@@ -109,7 +109,7 @@ def _stick(texture: int, marker: MarkerPose, size_m: float, client: int) -> None
         pybullet.GEOM_MESH,
         # Looking along +x, with the picture's left edge at the viewer's left.
         vertices=[[0, -half, half], [0, half, half], [0, half, -half], [0, -half, -half]],
-        uvs=[[0, 0], [1, 0], [1, 1], [0, 1]],
+        uvs=[[0, 1], [1, 1], [1, 0], [0, 0]],  # the engine counts v upwards
         normals=[[1, 0, 0]] * 4,
         indices=[0, 2, 1, 0, 3, 2],
         rgbaColor=[1, 1, 1, 1],
