@@ -78,15 +78,15 @@ def parse(
     world: WorldOption = None,
 ) -> None:
     """Show what Kirby makes of an utterance: the act, its logical form, and the commands that would be sent."""
-    from .understanding import show_reading, understanding
+    from .reading import reader, show_record
 
-    read = understanding(world)
+    read = reader(world)
     utterances = [" ".join(text)] if text else (line.rstrip("\r\n") for line in sys.stdin)
     understood = True
     for utterance in utterances:
         record = read(utterance)
         understood = understood and record["status"] != "not_understood"
-        print(json.dumps(record, ensure_ascii=False) if as_json else show_reading(record), flush=sys.stdout.isatty())
+        print(json.dumps(record, ensure_ascii=False) if as_json else show_record(record), flush=True)
     raise typer.Exit(0 if understood or as_json else 1)
 
 
@@ -124,7 +124,7 @@ def lexicon(
     """Check the lexicon, show the entries of a word, or list every word Kirby knows."""
     from .lexicon import run_lexicon
 
-    raise typer.Exit(0 if run_lexicon(action, word, folder) else 1)
+    run_lexicon(action, word, folder)
 
 
 @app.command(epilog="Example: kirby bench simulation --json")
