@@ -1,0 +1,1 @@
+"""The shared world that people see, point in and talk through."""
