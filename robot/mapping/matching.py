@@ -1,7 +1,7 @@
 """Scan-to-map matching: where the robot stands, given where odometry says it is and the walls it knows.
 
-Point-to-line iterative closest point (Censi, "An ICP variant using a point-to-line metric", ICRA 2008) in
-Gauss-Newton form, against the persistent walls. What the walls in view do not determine, such as the place along a bare
+Point-to-line iterative closest point (Censi, "An ICP variant using a point-to-line metric", ICRA 2008) against the
+persistent walls, in Gauss-Newton form with odometry as the prior, so that few echoes pull little. What the walls in view do not determine, such as the place along a bare
 corridor, is left as predicted.
 """
 
@@ -24,13 +24,18 @@ GATES_M = (0.25, 0.15, 0.08, 0.08)  # the farthest a point may lie from its wall
 END_SLACK_M = 0.05
 OUTLIER_M = 0.03  # where the weight of a residual has fallen to a half
 NEAR_M = 5.0
-MIN_MATCHED = 20
-MIN_MATCHED_SHARE = 0.3
+MIN_MATCHED = 8
+MIN_MATCHED_SHARE = 0.2
 MAX_RMS_M = 0.05
 MAX_SHIFT_M = 0.15
 MAX_TURN_RAD = math.radians(8.0)
+# How far odometry may be off from one scan to the next, and a point from its wall; one standard deviation each.
+PREDICTED_M = 0.01
+PREDICTED_RAD = math.radians(0.5)
+POINT_M = 0.02
+INDEPENDENT_POINTS = 60.0  # more points than this say no more: their walls' errors are common to them
 # The squared sines of the walls' angles to a direction, summed over the points matched: below this, it is not seen.
-MIN_INFORMATION = 6.0
+MIN_INFORMATION = 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +79,7 @@ def match(predicted: Pose, points: Floats, lines: Lines) -> Pose:
         residuals, normals, arms, share = _residuals(pose, points, lines, gate_m)
         if len(residuals) < MIN_MATCHED or share < MIN_MATCHED_SHARE:
             return predicted
-        pose = _stepped(pose, residuals, normals, arms)
+        pose = _stepped(pose, predicted, residuals, normals, arms)
     rms_m = math.sqrt(float(np.mean(residuals**2)))
     shift_m = predicted.point.distance_to(pose.point)
     turn_rad = abs(wrap_angle(pose.yaw_rad - predicted.yaw_rad))
@@ -103,18 +108,28 @@ def _residuals(pose: Pose, points: Floats, lines: Lines, gate_m: float) -> tuple
     return offsets[every[kept], wall], normals, arms, float(kept.mean())
 
 
-def _stepped(pose: Pose, residuals: Floats, normals: Floats, arms: Floats) -> Pose:
-    """One weighted Gauss-Newton step, in the observable directions only."""
+def _stepped(pose: Pose, predicted: Pose, residuals: Floats, normals: Floats, arms: Floats) -> Pose:
+    """One Gauss-Newton step towards the likeliest pose, in the observable directions only."""
     weights = 1.0 / (1.0 + (residuals / OUTLIER_M) ** 2)
     jacobian = np.column_stack([normals, arms])
     weighted = jacobian * weights[:, None]
-    information, gradient = jacobian.T @ weighted, weighted.T @ residuals
-    # Yaw is eliminated first (any wall tells it); what remains is the information on the place.
+    information = jacobian.T @ weighted
+    directions = _observable(information)
+    certainty = min(1.0, INDEPENDENT_POINTS / len(residuals)) / POINT_M**2
+    prior = np.array([PREDICTED_M**-2, PREDICTED_M**-2, PREDICTED_RAD**-2])
+    strayed = (pose.x_m - predicted.x_m, pose.y_m - predicted.y_m, wrap_angle(pose.yaw_rad - predicted.yaw_rad))
+    gradient = certainty * (weighted.T @ residuals) + prior * np.array(strayed)
+    hessian = certainty * information + np.diag(prior)
+    step = -directions @ np.linalg.solve(directions.T @ hessian @ directions, directions.T @ gradient)
+    return Pose(pose.x_m + float(step[0]), pose.y_m + float(step[1]), wrap_angle(pose.yaw_rad + float(step[2])))
+
+
+def _observable(information: Floats) -> Floats:
+    """An orthonormal basis, shape (3, 1 to 3), of yaw (any wall tells it) and what is seen of the place."""
     lever = max(float(information[2, 2]), 1e-9)
     place = information[:2, :2] - np.outer(information[:2, 2], information[2, :2]) / lever
-    pull = gradient[:2] - information[:2, 2] * gradient[2] / lever
     strengths, axes = np.linalg.eigh(place)
-    seen = strengths > MIN_INFORMATION
-    shift = -axes[:, seen] @ ((axes[:, seen].T @ pull) / strengths[seen])
-    turn = -(gradient[2] + information[2, :2] @ shift) / lever
-    return Pose(pose.x_m + float(shift[0]), pose.y_m + float(shift[1]), wrap_angle(pose.yaw_rad + float(turn)))
+    seen = axes[:, strengths > MIN_INFORMATION]
+    basis = np.zeros((3, seen.shape[1] + 1))
+    basis[:2, :-1], basis[2, -1] = seen, 1.0
+    return basis

@@ -12,7 +12,7 @@ from robot.body import Limits
 from robot.geometry import Point, Pose, wrap_angle
 from robot.mapping.grid import OccupancyGrid
 
-from .costmap import build_costmap
+from .costmap import Costmap, build_costmap
 from .follower import Follower, Twist
 from .goals import Drive, Phase, Reach, Reason, Rotate, State
 from .planner import Plan, plan
@@ -99,7 +99,8 @@ class Reaching:
         self._planned_s = view.now_s
         if self._backwards_allowed and self._plan_backwards(view):
             return
-        costmap = build_costmap(view.grid, view.pose.point, (self.goal.place,), self._limits.radius_m)
+        rest = self._follower.rest(view.pose) if self._follower is not None else ()
+        costmap = build_costmap(view.grid, view.pose.point, (self.goal.place, *rest), self._limits.radius_m)
         found = plan(costmap, view.pose.point, self.goal.place)
         if isinstance(found, Reason):
             self._no_way += 1
@@ -108,17 +109,16 @@ class Reaching:
             return
         self._no_way = 0
         self._keep_hope(found, view)
-        if self._follower is None or self._follower.backwards or self._is_better(found, view):
+        if self._follower is None or self._follower.backwards or self._is_better(found, costmap, view):
             self._follower = Follower(found.path, self._limits)
             self._moved_to = found.moved_to
 
-    def _is_better(self, found: Plan, view: View) -> bool:
+    def _is_better(self, found: Plan, costmap: Costmap, view: View) -> bool:
         """Whether the new plan is worth leaving a path that may still be good: it must not swing between two ways."""
         assert self._follower is not None
         if self._is_blocked(view) or found.moved_to != self._moved_to:
             return True
         rest = self._follower.rest(view.pose)
-        costmap = build_costmap(view.grid, view.pose.point, rest, self._limits.radius_m)
         rest_m = sum(costmap.line_cost(a, b) for a, b in pairwise(rest))
         return found.cost_m < BETTER_SHARE * rest_m
 

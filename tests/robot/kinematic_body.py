@@ -39,10 +39,12 @@ class Noise:
     angular_scale: float = 0.0
     linear_per_sqrt_m: float = 0.0
     angular_per_sqrt_rad: float = 0.0
+    heading_per_sqrt_m: float = 0.0
 
 
 EXACT = Noise()
-TYPICAL = Noise(0.01, 0.01, 0.02, 0.005, 0.01)
+TYPICAL = Noise(0.01, 0.002, 0.004, 0.001, 0.002, 0.004)
+HARSH = Noise(0.015, 0.01, 0.02, 0.005, 0.01, 0.01)
 
 
 class KinematicBody:
@@ -131,9 +133,10 @@ class KinematicBody:
             self._scan = self._measure()
 
     def _noisy(self, distance_m: float, turn_rad: float) -> tuple[float, float]:
-        a, b = self._random.normal(0.0, 1.0, 2)
+        a, b, c = self._random.normal(0.0, 1.0, 3)
         distance = distance_m * self._scale[0] + a * self._noise.linear_per_sqrt_m * math.sqrt(abs(distance_m))
         turn = turn_rad * self._scale[1] + b * self._noise.angular_per_sqrt_rad * math.sqrt(abs(turn_rad))
+        turn += c * self._noise.heading_per_sqrt_m * math.sqrt(abs(distance_m))
         return float(distance), float(turn)
 
     def _measure(self) -> Scan:
