@@ -1,8 +1,8 @@
 """Scan-to-map matching: where the robot stands, given where odometry says it is and the walls it knows.
 
 Point-to-line iterative closest point (Censi, "An ICP variant using a point-to-line metric", ICRA 2008) against the
-persistent walls, in Gauss-Newton form with odometry as the prior, so that few echoes pull little. What the walls in view do not determine, such as the place along a bare
-corridor, is left as predicted.
+persistent walls, in Gauss-Newton form with odometry as the prior, so that few echoes pull little. What the walls in
+view do not determine, such as the place along a bare corridor, is left as predicted.
 """
 
 from __future__ import annotations
