@@ -42,12 +42,10 @@ def extract_segments(scan: Scan) -> tuple[Segment, ...]:
         return ()
     points = scan_points(scan)
     breaks = _breaks(points, scan.ranges_m[echo], scan.angles_rad[echo])
-    if len(breaks):
-        # Start behind a gap, so that a wall across the first beam stays whole.
-        points = np.roll(points, -int(breaks[0]), axis=0)
-        bounds = [*(breaks - breaks[0]).tolist(), len(points)]
-    else:
-        bounds = [0, len(points)]
+    # Start behind a gap, so that a wall across the first beam stays whole; all around closed, in the farthest corner.
+    first = int(breaks[0]) if len(breaks) else int(scan.ranges_m[echo].argmax())
+    points = np.roll(points, -first, axis=0)
+    bounds = [0, *(breaks[1:] - first).tolist(), len(points)]
     pieces = [piece for first, end in itertools.pairwise(bounds) for piece in _split(points, first, end)]
     return tuple(s for s in (_fit(points[first:end]) for first, end in _join(points, pieces)) if s is not None)
 
