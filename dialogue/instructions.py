@@ -68,6 +68,9 @@ def _carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
             text = f"Which one: {listed(name_entities(candidates, world))}?"
             turn.highlight(ids, ())
             turn.ask(Trigger.ASK_REFERENT, Question(text, acts, form, ids))
+        case Unresolved(Reason.NEEDS_POINTING, Term(pred="here") as here):
+            come = instruct(Term("go", (Term("to", (here,)),)))
+            turn.ask(Trigger.ASK_PLACE, Question(unresolved(outcome), (come,), here))
         case Unresolved(Reason.NEEDS_POINTING, form):
             turn.ask(Trigger.ASK_PLACE, Question(unresolved(outcome), acts, form))
         case Unresolved():

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from grammar.forms import Form, Quantity, Term, Unit
-from grounding import Ambiguous, Entity, Grounded, Heading, Resolution, Unresolved, World, approach, resolve
+from grounding import Ambiguous, Entity, Grounded, Heading, Reason, Resolution, Unresolved, World, approach, resolve
 from robot.geometry import Point, wrap_angle
 from robot.messages import (
     COORDINATE_MAX_M,
@@ -33,6 +33,9 @@ from .programs import bind, substitute
 
 COMMANDS_MAX = 100
 """In one utterance; more is more likely misunderstood than meant."""
+
+_AT_THING = frozenset({"to", "at", "near", "next_to", "by", "toward"})
+"""Relations whose place, for a thing that one can stand before, is where one stands before it."""
 
 _ANGLE_STEP_DEG = 0.1  # what a turn that was computed is rounded to
 _PLACE_DECIMALS = 3
@@ -123,13 +126,25 @@ class _Planner:
             raise _Stops(Refused(Refusal.WRONG_ARGUMENT, form))
         variables = frozenset(arg.variable for arg in entry.args)
         for step in entry.body:
-            if all(self._holds(guard.condition, bound) for guard in step.guards if guard.operator == "if"):
-                if any(guard.operator == "while" for guard in step.guards):
-                    raise _Stops(Refused(Refusal.NOT_ABLE, form))
-                event = substitute(step.event, bound, variables)
-                # "patrol" is a verb and a primitive: inside a body it is the primitive.
-                primitive = _PRIMITIVES.get(event.pred)
-                self.run(event) if primitive is None else primitive(self, event)
+            if not all(self._holds(guard.condition, bound) for guard in step.guards if guard.operator == "if"):
+                continue
+            if any(guard.operator == "while" for guard in step.guards):
+                raise _Stops(Refused(Refusal.NOT_ABLE, form))
+            try:
+                self._event(substitute(step.event, bound, variables))
+            except _Stops as stop:
+                # What a primitive refuses is told of what was said.
+                if isinstance(stop.outcome, Refused):
+                    stop.outcome = replace(stop.outcome, form=form)
+                raise
+
+    def _event(self, event: Term) -> None:
+        """A step of a body: a primitive, which may have the name of a verb ("patrol"), or else another program."""
+        primitive = _PRIMITIVES.get(event.pred)
+        if primitive is None:
+            self._unfold(event)
+        else:
+            primitive(self, event)
 
     def _holds(self, condition: Term, bound: Mapping[str, Form]) -> bool:
         match condition:
@@ -177,8 +192,10 @@ class _Planner:
     def reach(self, form: Term) -> None:
         """``reach(place)``: go there; in front of a thing, and facing it at the end."""
         (goal,) = form.args
-        if isinstance(goal, Term) and goal.pred in ("to", "at", "near", "next_to", "by") and goal.args:
+        if isinstance(goal, Term) and goal.pred in _AT_THING and len(goal.args) == 1:
             goal = goal.args[0]
+        if goal == Term("here"):  # to come here is to come to the speaker, whose place is not known
+            raise _Stops(Unresolved(Reason.NEEDS_POINTING, goal))
         target = self._meant(goal)
         if isinstance(target, Heading):
             raise _Stops(Refused(Refusal.WRONG_ARGUMENT, form))

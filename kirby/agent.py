@@ -9,10 +9,12 @@ Neither Redis nor pybullet is needed: the outputs are values, and a host's own r
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Callable
-from typing import Protocol
+from typing import Any, Protocol
 
+from dialogue.codec import UnreadableError, from_data, to_data
 from dialogue.events import (
     Dispatch,
     Event,
@@ -31,6 +33,7 @@ from dialogue.events import (
 from dialogue.manager import DialogueManager
 from dialogue.session import Session, Task
 from dialogue.table import Activity, State
+from dialogue.understanding import understand as _understand
 from grammar import parse
 from grounding.world import World
 from robot.geometry import Point, Pose
@@ -43,6 +46,16 @@ class RobotPort(Protocol):
     """What a host's robot must offer: take commands, with the ids under which their feedback is to come back."""
 
     def send(self, commands: tuple[Command, ...], ids: tuple[str, ...]) -> None: ...
+
+
+def understand(text: str, world: Scene | World | None = None, lexicon: Lexicon | None = None) -> dict[str, Any]:
+    """What Kirby makes of one utterance by itself: see `dialogue.understanding.understand`.
+
+    A scene stands for a world that is known in full.
+    """
+    words = lexicon or load_lexicon()
+    model = World.explored(world) if isinstance(world, Scene) else world
+    return _understand(text, model, words, lambda said: parse(said, words))
 
 
 class Agent:
@@ -122,6 +135,31 @@ class Agent:
         return outputs
 
     # -------------------------------------------------------------- state
+    def to_json(self) -> str:
+        """The whole conversation; `from_json` goes on where it was."""
+        return json.dumps(to_data(self.session, Session), separators=(",", ":"))
+
+    @classmethod
+    def from_json(
+        cls,
+        text: str,
+        lexicon: Lexicon | None = None,
+        robot: RobotPort | None = None,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> Agent:
+        """The agent that `to_json` wrote.
+
+        Raises:
+            UnreadableError: the text is not of a session.
+        """
+        try:
+            data = json.loads(text)
+        except (json.JSONDecodeError, RecursionError):
+            raise UnreadableError("a session is JSON, and this is not") from None
+        agent = cls(None, lexicon, robot, clock)
+        agent._manager = agent._manage(from_data(data, Session))
+        return agent
+
     @property
     def session(self) -> Session:
         """Everything that is remembered."""
