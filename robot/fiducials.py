@@ -20,7 +20,7 @@ from .body import CameraModel, Image
 from .geometry import wrap_angle
 
 DICTIONARY = cv2.aruco.DICT_5X5_1000
-CORNER_NOISE_PX = 0.25  # of a refined corner, one standard deviation; measured
+CORNER_NOISE_PX = 0.45  # of a refined corner, one standard deviation; measured
 _FIT_MAX_PX = 2.0  # a worse fit (root mean square) is no upright marker of that size
 _ITERATIONS = 8
 
@@ -63,18 +63,21 @@ class FiducialDetector:
         if ids is None:
             return ()
         best: dict[int, Sighting] = {}
-        for quad, id in zip(quads, ids.ravel().tolist(), strict=True):
-            sighting = self._sighting(id, np.asarray(quad, dtype=np.float64).reshape(4, 2))
-            if sighting and (id not in best or sighting.position_deviation_m < best[id].position_deviation_m):
-                best[id] = sighting
-        return tuple(best[id] for id in sorted(best))
+        for quad, number in zip(quads, np.ravel(ids), strict=True):
+            sighting = self._sighting(int(number), np.asarray(quad, dtype=np.float64).reshape(4, 2))
+            if sighting is None:
+                continue
+            other = best.get(sighting.id)
+            if other is None or sighting.position_deviation_m < other.position_deviation_m:
+                best[sighting.id] = sighting
+        return tuple(sorted(best.values(), key=lambda sighting: sighting.id))
 
     def _sighting(self, id: int, corners_px: Array) -> Sighting | None:
         if not np.isfinite(corners_px).all():
             return None
         half_m = self._sizes_m.get(id, self._size_m) / 2
-        fits = [self._fit(start, corners_px, half_m) for start in self._candidates(corners_px, half_m)]
-        fits = sorted((fit for fit in fits if fit is not None), key=lambda fit: fit.error_px)
+        tried = [self._fit(start, corners_px, half_m) for start in self._candidates(corners_px, half_m)]
+        fits = sorted((fit for fit in tried if fit is not None), key=lambda fit: fit.error_px)
         if not fits or fits[0].error_px > _FIT_MAX_PX:
             return None
         best = fits[0]
@@ -104,19 +107,18 @@ class FiducialDetector:
 
     def _fit(self, start: Array, corners_px: Array, half_m: float) -> _Fit | None:
         """The upright marker nearest to ``start`` whose corners come to lie on those seen; None if there is none."""
-        values = start.copy()
+        values = start
         for _ in range(_ITERATIONS):
+            if not np.isfinite(values).all() or values[0] <= half_m:  # behind the camera
+                return None
             seen, slopes = self._project(values, half_m)
             residual = (corners_px - seen).ravel()
             step, *_ = np.linalg.lstsq(slopes, residual, rcond=None)
             values = values + step
-            if not np.isfinite(values).all() or values[0] <= half_m:
-                return None
-            if np.abs(step).max() < 1e-6:
-                break
         seen, slopes = self._project(values, half_m)
         error_px = float(np.sqrt(np.mean((corners_px - seen) ** 2)))
-        return _Fit(values, error_px, np.linalg.pinv(slopes.T @ slopes))
+        covariance = np.asarray(np.linalg.pinv(slopes.T @ slopes), dtype=np.float64)
+        return _Fit(values, error_px, covariance)
 
     def _project(self, values: Array, half_m: float) -> tuple[Array, Array]:
         """Pixels (4, 2) of an upright marker's corners, and their derivatives (8, 4) by x, y, z and yaw."""
@@ -156,5 +158,7 @@ def _flip_doubt_rad(fits: list[_Fit]) -> float:
 def _parameters() -> cv2.aruco.DetectorParameters:
     parameters = cv2.aruco.DetectorParameters()
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
-    parameters.cornerRefinementWinSize = 4
+    # The window follows the marker's size in the image, so that it holds the corner and nothing else.
+    parameters.cornerRefinementWinSize = 10
+    parameters.relativeCornerRefinmentWinSize = 0.6
     return parameters
