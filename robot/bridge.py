@@ -119,9 +119,9 @@ class Bridge:
             ReplacedError: another robot has taken over.
         """
         self._collect(news)
+        self._arrived.clear()
         if not self._reachable.is_set():
             return Incoming()
-        self._arrived.clear()
         try:
             answer = self._run()
         except redis.RedisError as error:

@@ -8,7 +8,9 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
 
 from .errors import RobotError
 
@@ -42,13 +44,21 @@ RESTART_WINDOW_S = 10.0
 class Child:
     """A process that lives until :meth:`close` or its parent's end, and is started again when something kills it.
 
-    An exit of its own accord is not repeated: it would only fail again. ``log`` takes what it writes.
+    An exit of its own accord is not repeated: it would only fail again. ``log`` takes what it writes, ``lock`` is held
+    as long as it lives, and ``environment`` is added to ours.
     """
 
-    def __init__(self, command: list[str], log: Path, lock: Path | None = None) -> None:
+    def __init__(
+        self,
+        command: list[str],
+        log: Path,
+        lock: Path | None = None,
+        environment: Mapping[str, str] = MappingProxyType({}),
+    ) -> None:
         self._command = command
         self._log = log
         self._lock = lock
+        self._environment = environment
         self._closing = threading.Event()
         self._started = threading.Event()
         self._ended = threading.Event()
@@ -106,7 +116,11 @@ class Child:
         guard = [sys.executable, "-I", "-S", "-c", _GUARD, str(os.getpid()), str(self._lock or "")]
         with self._log.open("ab") as log:
             self._process = subprocess.Popen(  # noqa: S603 - a list, no shell
-                [*guard, *self._command], stdin=subprocess.DEVNULL, stdout=log, stderr=log
+                [*guard, *self._command],
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=log,
+                env={**os.environ, **self._environment},
             )
         self._started.set()
         if self._closing.is_set():
