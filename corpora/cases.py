@@ -50,7 +50,7 @@ class CorpusError(KirbyError):
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """The world by name or path (None: none), where the robot stands (None: its start), the fiducials seen (None: all)."""
+    """The world by name or path, where the robot stands (None: its start), and the fiducials seen (None: all)."""
 
     world: str | None = None
     at: tuple[float, float, float] | None = None

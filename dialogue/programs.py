@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from grammar.forms import Form, Name, Quantity, Term, Unit
-from grounding.resolve import COMPASS_RAD
+from grounding.relations import COMPASS_RAD
 from voxml.schema import Argument, ProgramEntry
 
 AGENT = "agent"

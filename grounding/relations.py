@@ -8,18 +8,26 @@ own, for a marker has a face.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
+from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
 
 from robot.geometry import Pose
+from voxml.schema import RelationEntry
 
 from .entities import Mask
 
-NEAR_M = 1.5
-NEXT_TO_M = 1.0
+COMPASS_RAD = {
+    name: math.radians(45.0 * step)
+    for step, name in enumerate(("east", "northeast", "north", "northwest", "west", "southwest", "south", "southeast"))
+}
+"""Headings on the map: x is east (ROS REP-103, so that yaw 0 faces east), y north."""
+
 _HALF_CONE_RAD = math.radians(60.0)  # how far from a side's axis something may lie and still be on that side
+_PAST_M = 0.01  # the landmarks themselves are not between themselves
 _BESIDE_LINE_M = 0.75  # how far from the line between two things something may lie and still be between them
 
 Places = NDArray[np.float64]  # shape (n, 2), map frame
@@ -51,43 +59,69 @@ REGIONS: Mapping[str, Callable[[Places], Mask]] = {
 
 
 # ------------------------------------------------------------------ to a landmark
-def _within(distance_m: float) -> Callable[[Pose, Pose, Places], Mask]:
+class Frame(Enum):
+    """Whose left, front or north it is (Levinson's relative, intrinsic and absolute frames)."""
+
+    VIEWER = "viewer"  # the robot's, as it looks at the landmark
+    OWN = "own"  # the landmark's
+    MAP = "map"
+
+
+Holds = Callable[[Pose, Pose, Places], Mask]
+"""(robot, landmark, places of shape (n, 2)) -> of which places the relation to the landmark holds, shape (n,)."""
+
+
+def relation(entry: RelationEntry) -> Holds | None:
+    """What a relation's entry says, computed: its constraint on distance, or else the side that its value names.
+
+    None for a relation that cannot be computed on a flat map ("above").
+    """
+    distance = _DISTANCE.fullmatch(entry.constraint or "")
+    if distance is not None:
+        return _at_distance(distance[1], float(distance[2]))
+    return _SIDES.get(entry.value)
+
+
+def _at_distance(comparison: str, distance_m: float) -> Holds:
     def holds(robot: Pose, landmark: Pose, xy_m: Places) -> Mask:
         away_m = distances_m((landmark.x_m, landmark.y_m), xy_m)
-        return (away_m > 0) & (away_m <= distance_m)
+        return (away_m > 0) & (away_m <= distance_m) if comparison == "<=" else away_m > distance_m
 
     return holds
 
 
-def _on_side(direction_rad: float, intrinsic: bool) -> Callable[[Pose, Pose, Places], Mask]:
-    """Within a cone around a side of the landmark: its own side, or the side as seen from the robot."""
+def _on_side(direction_rad: float, frame: Frame) -> Holds:
+    """Within a cone around a direction from the landmark, in one of the frames."""
 
     def holds(robot: Pose, landmark: Pose, xy_m: Places) -> Mask:
-        facing_rad = landmark.yaw_rad if intrinsic else robot.point.bearing_to(landmark.point)
-        local = local_m(Pose(landmark.x_m, landmark.y_m, facing_rad + direction_rad), xy_m)
+        yaw_rad = _FRAME_YAW[frame](robot, landmark) + direction_rad
+        local = local_m(Pose(landmark.x_m, landmark.y_m, yaw_rad), xy_m)
         return (local[:, 0] > 0) & (np.abs(np.arctan2(local[:, 1], local[:, 0])) <= _HALF_CONE_RAD)
 
     return holds
 
 
-BINARY: Mapping[str, Callable[[Pose, Pose, Places], Mask]] = {
-    "near": _within(NEAR_M),
-    "by": _within(NEAR_M),
-    "next_to": _within(NEXT_TO_M),
-    "beside": _within(NEXT_TO_M),
-    "left_of": _on_side(math.pi / 2, intrinsic=False),
-    "right_of": _on_side(-math.pi / 2, intrinsic=False),
-    "in_front_of": _on_side(0.0, intrinsic=True),
-    "behind": _on_side(math.pi, intrinsic=True),
+_FRAME_YAW: Mapping[Frame, Callable[[Pose, Pose], float]] = {
+    Frame.VIEWER: lambda robot, landmark: robot.point.bearing_to(landmark.point),
+    Frame.OWN: lambda robot, landmark: landmark.yaw_rad,
+    Frame.MAP: lambda robot, landmark: 0.0,
 }
-"""Relations to one landmark: (robot, landmark, places of shape (n, 2)) -> which hold, shape (n,)."""
+_DISTANCE = re.compile(r"dist\(x, y\) (<=|>) ([0-9.]+)m")
+_SIDES: Mapping[str, Holds] = {
+    "projective.left": _on_side(math.pi / 2, Frame.VIEWER),
+    "projective.right": _on_side(-math.pi / 2, Frame.VIEWER),
+    "projective.front": _on_side(0.0, Frame.OWN),
+    "projective.back": _on_side(math.pi, Frame.OWN),
+    **{f"cardinal.{name}": _on_side(yaw_rad, Frame.MAP) for name, yaw_rad in COMPASS_RAD.items()},
+}
+BETWEEN = "projective.between"
 
 
 def between(first: Pose, second: Pose, xy_m: Places) -> Mask:
     """Beside the line from one landmark to the other, and past neither; shape (n,)."""
     length_m = first.point.distance_to(second.point)
     local = local_m(Pose(first.x_m, first.y_m, first.point.bearing_to(second.point)), xy_m)
-    return (local[:, 0] > 0) & (local[:, 0] < length_m) & (np.abs(local[:, 1]) <= _BESIDE_LINE_M)
+    return (local[:, 0] > _PAST_M) & (local[:, 0] < length_m - _PAST_M) & (np.abs(local[:, 1]) <= _BESIDE_LINE_M)
 
 
 def meeting_order(robot: Pose, xy_m: Places) -> NDArray[np.intp]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,14 +22,17 @@ from .descriptions import (
 from .entities import FIDUCIAL, Entity, Mask
 from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
 from .pointing import likely_rows, pointed_place, pointed_ray, read_point
-from .relations import BINARY, REGIONS, between, distances_m, local_m, meeting_order
+from .relations import (
+    BETWEEN,
+    COMPASS_RAD,
+    REGIONS,
+    between,
+    distances_m,
+    local_m,
+    meeting_order,
+    relation,
+)
 from .world import World
-
-COMPASS_RAD = {
-    name: math.radians(45.0 * step)
-    for step, name in enumerate(("east", "northeast", "north", "northwest", "west", "southwest", "south", "southeast"))
-}
-"""Headings on the map: x is east (ROS REP-103, so that yaw 0 faces east), y north."""
 
 _ANYTHING = frozenset({"one", "object", "obstacle"})
 Rows = NDArray[np.intp]
@@ -217,15 +218,16 @@ def _modifier_mask(modifier: Term, world: World, lexicon: Lexicon) -> Mask:
     region = _region(modifier)
     if region is not None:
         return REGIONS[region](local_m(world.robot, world.entities.xy_m))
-    if modifier.pred == "between" and len(modifier.args) == 2:
+    entry = lexicon.relations.get(modifier.pred)
+    if entry is not None and entry.value == BETWEEN and len(modifier.args) == 2:
         firsts, seconds = (_landmarks(arg, world, lexicon) for arg in modifier.args)
         pairs = [(a, b) for a in firsts for b in seconds if a.id != b.id]
         return _any([between(a.pose, b.pose, world.entities.xy_m) for a, b in pairs], world)
-    relation = BINARY.get(modifier.pred)
-    if relation is None or len(modifier.args) != 1:
+    holds = None if entry is None else relation(entry)
+    if holds is None or len(modifier.args) != 1:
         raise _Fails(Unresolved(Reason.NOT_A_PLACE, modifier))
     landmarks = _landmarks(modifier.args[0], world, lexicon)
-    return _any([relation(world.robot, landmark.pose, world.entities.xy_m) for landmark in landmarks], world)
+    return _any([holds(world.robot, landmark.pose, world.entities.xy_m) for landmark in landmarks], world)
 
 
 def _region(modifier: Term) -> str | None:
