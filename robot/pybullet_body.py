@@ -13,7 +13,7 @@ from .body import CameraModel, Image, Limits, Odometry, Scan
 from .geometry import Pose
 from .simulation.chassis import Chassis
 from .simulation.engine import STEP_RATE_HZ, connect, pybullet
-from .simulation.senses import Camera, Laser, Noise, Odometer
+from .simulation.senses import CAMERA, Camera, Laser, Noise, Odometer
 from .simulation.stage import build_stage
 
 _ODOMETER_STEPS = 4  # encoders are read at 60 Hz
@@ -67,7 +67,7 @@ class PybulletBody:
 
     @property
     def camera(self) -> CameraModel:
-        return self._camera.MODEL
+        return CAMERA
 
     @property
     def time_s(self) -> float:

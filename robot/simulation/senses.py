@@ -31,6 +31,28 @@ class Noise:
     wheel_slip: float = 0.0007
 
 
+_BEAMS_RAD = np.arange(tb3.LASER.beams) * (math.tau / tb3.LASER.beams)
+
+# TinyRenderer samples the picture plane at the left and lower edges of the pixels, not in their middle.
+CAMERA = tb3.pinhole((tb3.CAMERA_SIZE_PX[0] / 2, tb3.CAMERA_SIZE_PX[1] / 2 - 1))
+CAMERA_SETTINGS = {
+    "width": CAMERA.width_px,
+    "height": CAMERA.height_px,
+    "projectionMatrix": pybullet.computeProjectionMatrixFOV(
+        fov=math.degrees(2 * math.atan(CAMERA.height_px / 2 / CAMERA.focal_px)),
+        aspect=CAMERA.width_px / CAMERA.height_px,
+        nearVal=0.03,
+        farVal=20.0,
+    ),
+    "shadow": 0,
+    "lightDirection": [-1, 0.4, 2],
+    "lightAmbientCoeff": 0.65,
+    "lightDiffuseCoeff": 0.35,
+    "lightSpecularCoeff": 0,
+    "renderer": pybullet.ER_TINY_RENDERER,
+    "flags": pybullet.ER_NO_SEGMENTATION_MASK,
+}
+
 NO_NOISE = Noise(0.0, 0.0, 0.0, 0.0)
 
 
@@ -70,72 +92,49 @@ class Laser:
         self._noise_m = noise.range_m
         self._random = random
         self._client = client
-        self._beams = np.arange(tb3.LASER.beams) * (math.tau / tb3.LASER.beams)
 
     def scan(self, time_s: float, pose: Pose) -> Scan:
         """A scan from the true pose, its echoes given in the body's frame: seen from the turning centre."""
         laser = tb3.LASER
-        origin = pose.ahead(laser.mount_m[0])
-        echoes_m = self._cast(origin)
+        hits = pybullet.rayTestBatch(*laser_rays(pose), physicsClientId=self._client)
+        echoes_m = laser.max_range_m * np.array([hit[2] for hit in hits])
         heard = echoes_m < laser.max_range_m
         echoes_m = np.clip(
             echoes_m + self._noise_m * self._random.standard_normal(laser.beams), laser.min_range_m, None
         )
         heard &= echoes_m <= laser.max_range_m
-        x_m = laser.mount_m[0] + echoes_m * np.cos(self._beams)
-        y_m = echoes_m * np.sin(self._beams)
-        angles = np.where(heard, np.arctan2(y_m, x_m) % math.tau, self._beams)
+        x_m, y_m = laser.mount_m[0] + echoes_m * np.cos(_BEAMS_RAD), echoes_m * np.sin(_BEAMS_RAD)
+        angles_rad = np.where(heard, np.arctan2(y_m, x_m) % math.tau, _BEAMS_RAD)
         ranges_m = np.where(heard, np.hypot(x_m, y_m), np.inf)
-        return Scan(time_s, angles, ranges_m, laser.min_range_m, laser.max_range_m)
+        return Scan(time_s, angles_rad, ranges_m, laser.min_range_m, laser.max_range_m)
 
-    def _cast(self, origin: Pose) -> NDArray[np.float64]:
-        """The distance to the first thing along each beam; the laser's greatest range where there is nothing."""
-        height_m, reach_m = tb3.LASER.mount_m[2], tb3.LASER.max_range_m
-        directions = self._beams + origin.yaw_rad
-        ends = np.empty((len(directions), 3))
-        ends[:, 0] = origin.x_m + reach_m * np.cos(directions)
-        ends[:, 1] = origin.y_m + reach_m * np.sin(directions)
-        ends[:, 2] = height_m
-        starts = [(origin.x_m, origin.y_m, height_m)] * len(directions)
-        hits = pybullet.rayTestBatch(starts, ends.tolist(), physicsClientId=self._client)
-        return reach_m * np.array([hit[2] for hit in hits])
+
+def laser_rays(pose: Pose) -> tuple[list[tuple[float, float, float]], list[list[float]]]:
+    """Start and end of every beam when the robot is at ``pose``: lists, which pybullet reads faster than arrays."""
+    mount_x_m, _, height_m = tb3.LASER.mount_m
+    origin = pose.ahead(mount_x_m)
+    directions = _BEAMS_RAD + origin.yaw_rad
+    ends = np.empty((len(directions), 3))
+    ends[:, 0] = origin.x_m + tb3.LASER.max_range_m * np.cos(directions)
+    ends[:, 1] = origin.y_m + tb3.LASER.max_range_m * np.sin(directions)
+    ends[:, 2] = height_m
+    return [(origin.x_m, origin.y_m, height_m)] * len(directions), ends.tolist()
 
 
 class Camera:
     """The Raspberry Pi camera, drawn by pybullet's TinyRenderer."""
 
-    # TinyRenderer samples the picture plane at whole pixels from the left and top edges: measured against projected
-    # corners, see tests/robot/test_fiducials.py.
-    MODEL = tb3.pinhole((tb3.CAMERA_SIZE_PX[0] / 2, tb3.CAMERA_SIZE_PX[1] / 2))
-
     def __init__(self, noise: Noise, random: np.random.Generator, client: int) -> None:
-        width_px, height_px = tb3.CAMERA_SIZE_PX
-        up_rad = 2 * math.atan(height_px / 2 / self.MODEL.focal_px)
-        self._projection = pybullet.computeProjectionMatrixFOV(math.degrees(up_rad), width_px / height_px, 0.03, 20.0)
         self._random = random
         self._client = client
         self._grain = _grain(noise.image_levels, random)
 
     def image(self, time_s: float, pose: Pose) -> Image:
         """A picture from the true pose."""
-        x_m, _, z_m = self.MODEL.mount_m
-        eye, ahead = pose.ahead(x_m), pose.ahead(x_m + 1)
-        view = pybullet.computeViewMatrix([eye.x_m, eye.y_m, z_m], [ahead.x_m, ahead.y_m, z_m], [0, 0, 1])
-        _, _, rgba, _, _ = pybullet.getCameraImage(
-            self.MODEL.width_px,
-            self.MODEL.height_px,
-            view,
-            self._projection,
-            shadow=0,
-            lightDirection=[-1, 0.4, 2],
-            lightAmbientCoeff=0.65,
-            lightDiffuseCoeff=0.35,
-            lightSpecularCoeff=0,
-            renderer=pybullet.ER_TINY_RENDERER,
-            flags=pybullet.ER_NO_SEGMENTATION_MASK,
-            physicsClientId=self._client,
-        )
-        return Image(time_s, self._with_grain(_rgb(rgba)))
+        drawn = pybullet.getCameraImage(viewMatrix=camera_view(pose), physicsClientId=self._client, **CAMERA_SETTINGS)
+        rgba = drawn[2].reshape(CAMERA.height_px, CAMERA.width_px, 4)
+        pixels = np.asarray(cv2.cvtColor(rgba, cv2.COLOR_RGBA2RGB), dtype=np.uint8)
+        return Image(time_s, self._with_grain(pixels))
 
     def _with_grain(self, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
         if self._grain is None:
@@ -145,14 +144,16 @@ class Camera:
         return np.asarray(cv2.add(pixels, grain, dtype=cv2.CV_8U), dtype=np.uint8)
 
 
-def _rgb(rgba: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    width_px, height_px = tb3.CAMERA_SIZE_PX
-    return np.asarray(cv2.cvtColor(rgba.reshape(height_px, width_px, 4), cv2.COLOR_RGBA2RGB), dtype=np.uint8)
+def camera_view(pose: Pose) -> tuple[float, ...]:
+    """pybullet's view matrix of the camera when the robot is at ``pose``."""
+    x_m, _, z_m = CAMERA.mount_m
+    eye, ahead = pose.ahead(x_m), pose.ahead(x_m + 1)
+    view = pybullet.computeViewMatrix([eye.x_m, eye.y_m, z_m], [ahead.x_m, ahead.y_m, z_m], [0, 0, 1])
+    return tuple(view)
 
 
 def _grain(levels: float, random: np.random.Generator) -> NDArray[np.int16] | None:
     """Noise for two pictures, drawn once: each picture gets its own stretch of it, at a fiftieth of the time."""
     if levels == 0:
         return None
-    width_px, height_px = tb3.CAMERA_SIZE_PX
-    return np.rint(random.normal(0.0, levels, 2 * width_px * height_px * 3)).astype(np.int16)
+    return np.rint(random.normal(0.0, levels, 2 * CAMERA.width_px * CAMERA.height_px * 3)).astype(np.int16)
