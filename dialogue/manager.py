@@ -155,6 +155,8 @@ def _see_gesture(turn: Turn, event: Gesture) -> None:
             yes(turn, event.time_s)
         case GestureKind.THUMBS_DOWN:
             no(turn, event.time_s)
+        case GestureKind.BECKON:
+            obey(turn, (instruct(Term("come_here")),), event.time_s)
         case GestureKind() as kind if kind in _CAMERA:
             turn.outputs.append(MoveCamera(_CAMERA[kind]))
         case _:

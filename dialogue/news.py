@@ -83,10 +83,18 @@ def _follow(turn: Turn, event: RobotFeedback) -> None:
         _left_over(turn)
     elif feedback.code is Code.READY and any(task.moves for task in turn.session.tasks):
         return  # said before it read what was sent
+    elif feedback.code in ENDINGS and _is_done(turn):
+        turn.robot_is(Activity.RESTING)
     elif activity is not None and activity is not turn.session.activity:
         turn.robot_is(activity)
         if activity is Activity.STRAYED:
             turn.say(f"{feedback.message}. Shall I keep going?", Tone.QUESTION)
+
+
+def _is_done(turn: Turn) -> bool:
+    """Whether what ended was the last of what was sent."""
+    moving = turn.session.activity in (Activity.MOVING, Activity.PATROLLING)
+    return moving and not any(task.moves for task in turn.session.tasks)
 
 
 def _left_over(turn: Turn) -> None:
