@@ -12,18 +12,19 @@ import redis
 from redis.backoff import ExponentialBackoff
 
 from dialogue.events import Dispatch, RobotFeedback, WorldUpdate
+from robot.bridge import masked
 from robot.messages import (
     Envelope,
     Keys,
     Malformed,
-    Status,
     decode_fiducials,
     decode_map,
     decode_odom,
-    decode_status,
     encode_entry,
     feedback_from_fields,
 )
+
+from .errors import KirbyError
 
 POLL_S = 0.1
 FEEDBACK_BATCH = 100
@@ -66,32 +67,35 @@ class RobotLink:
     place where the robot said "arrived".
     """
 
-    def __init__(
-        self,
-        url: str,
-        deliver: Callable[[LinkEvent], None],
-        *,
-        namespace: str = "",
-        clock: Callable[[], float] = time.monotonic,
-    ) -> None:
-        self._client = connect(url)
-        self._deliver = deliver
+    def __init__(self, url: str, namespace: str = "", clock: Callable[[], float] = time.monotonic) -> None:
+        """No traffic yet. Raises KirbyError when ``url`` is not a Redis URL."""
+        self._url = url
+        try:
+            self._client = connect(url)
+        except ValueError as error:
+            raise KirbyError(f"'{masked(url)}' is not a Redis URL ({error}): try redis://localhost:6379") from None
         self._keys = Keys(namespace)
         self._clock = clock
+        self._deliver: Callable[[LinkEvent], None] = _nowhere
         self._stopped = threading.Event()
-        self._seen: dict[str, bytes | None] = {}
+        self._seen: dict[str, bytes] = {}
+        self._alive: bool | None = None
         self._cursor: bytes | str = "0-0"
         self._thread = threading.Thread(target=self._run, name="robot-link", daemon=True)
 
-    def start(self) -> None:
-        """Begin at the feedback published from now on.
+    def start(self, deliver: Callable[[LinkEvent], None]) -> None:
+        """Begin at the feedback published from now on; ``deliver`` is called in the link's own thread.
 
         Raises:
-            redis.RedisError: nothing answers at the URL.
+            KirbyError: nothing answers at the URL.
         """
-        newest: Any = self._client.xrevrange(self._keys.feedback_stream, count=1)
+        try:
+            newest: Any = self._client.xrevrange(self._keys.feedback_stream, count=1)
+        except redis.RedisError as error:
+            raise KirbyError(f"no Redis answers at {masked(self._url)} ({error}): check --redis") from None
         if newest:
             self._cursor = newest[0][0]
+        self._deliver = deliver
         self._thread.start()
 
     def close(self) -> None:
@@ -100,10 +104,9 @@ class RobotLink:
             self._thread.join(timeout=2.0)
         self._client.close()
 
-    def alive(self) -> Status | None:
-        """The robot's sign of life, or None when there is none."""
-        text: Any = self._client.get(self._keys.status)
-        return None if text is None else decode_status(text)
+    def alive(self) -> bool:
+        """Whether the robot shows a sign of life."""
+        return bool(self._client.exists(self._keys.status))
 
     def send(self, dispatch: Dispatch) -> None:
         """Push the commands with their ids, all or none.
@@ -150,7 +153,9 @@ class RobotLink:
         pipe.get(self._keys.odom)
         pipe.lindex(self._keys.map, -1)
         pipe.get(self._keys.fiducials)
-        odom, walls, fiducials = pipe.execute()
+        pipe.exists(self._keys.status)
+        odom, walls, fiducials, alive = pipe.execute()
+        self._deliver_life(bool(alive))
         update = WorldUpdate(
             self._clock(),
             odom=self._news("odom", odom, decode_odom),
@@ -159,6 +164,15 @@ class RobotLink:
         )
         if update.odom or update.map or update.fiducials:
             self._deliver(update)
+
+    def _deliver_life(self, alive: bool) -> None:
+        """A robot that was there and is not any more is lost; one that has not come up yet is no news."""
+        if self._alive is True and not alive:
+            self._deliver(Lost("the robot shows no sign of life"))
+        elif self._alive is False and alive:
+            self._deliver(Found())
+        if alive or self._alive is not None:
+            self._alive = alive
 
     def _news(self, name: str, text: bytes | None, decode: Callable[[bytes], T]) -> T | None:
         """The decoded value if the key holds another text than before."""
@@ -170,3 +184,7 @@ class RobotLink:
         except Malformed as error:
             self._deliver(Garbled(f"{name}: {error}"))
             return None
+
+
+def _nowhere(event: LinkEvent) -> None:
+    """Before the link is started there is nobody to deliver to."""

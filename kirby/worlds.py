@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
+from pathlib import Path
 
+import corpora
 from voxml.scene import Scene, SceneError, find_scene
 
 from .errors import UsageError
 
 DEFAULT_WORLD = "figure3"
+FOLDER = Path(corpora.__file__).parent / "worlds"
 
 
 def find_world(name_or_path: str) -> Scene:
@@ -18,6 +20,13 @@ def find_world(name_or_path: str) -> Scene:
         UsageError: there is no such world, or its file is broken; the text says which there are.
     """
     try:
-        return find_scene(name_or_path, files("corpora") / "worlds")
+        return find_scene(name_or_path, FOLDER)
     except SceneError as error:
         raise UsageError(str(error)) from None
+
+
+def world_file(name_or_path: str) -> tuple[Path, Scene]:
+    """The file, absolute, and what it holds. Raises UsageError as :func:`find_world` does."""
+    scene = find_world(name_or_path)
+    own = FOLDER / f"{name_or_path}.yaml"
+    return (own if own.exists() else Path(name_or_path)).absolute(), scene

@@ -104,14 +104,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options, verbose = _parse(arguments)
     logging.basicConfig(stream=sys.stderr, level=logging.INFO if verbose else logging.CRITICAL)
     stopping = threading.Event()
-    for sign in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(sign, lambda *_: stopping.set())
+    stop_on_signals(stopping)
     try:
         run_robot(options, stopping)
     except RobotError as error:
         print(f"robot: {error}", file=sys.stderr)
         return 1
     return 0
+
+
+def stop_on_signals(stopping: threading.Event) -> None:
+    """SIGTERM and Ctrl-C end the run between two control periods. To be called in the main thread."""
+    for sign in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(sign, lambda *_: stopping.set())
 
 
 def _arguments(options: RobotOptions) -> list[str]:
