@@ -1,7 +1,7 @@
 """How much of the bare simulator's speed is left when the whole simulated robot runs.
 
 One loop drives `PybulletBody` in a circle with its laser at 5 Hz, its camera at 2 Hz and the markers read out of each
-picture; the other makes only the same pybullet calls, with their arguments computed beforehand: steps, the motors
+picture; the other makes only the same pybullet calls, with their arguments computed beforehand: steps, motor
 control, the laser's rays and the camera's pictures. Both start from the same state of the same world and take turns, so
 that a noisy machine slows both; the figures are medians over the rounds.
 
