@@ -11,9 +11,11 @@ from voxml.schema import Entry, ObjectEntry, ProgramEntry, RelationEntry
 from voxml.terms import Form, Term, parse_term
 from voxml.vocabulary import Lexicon, load_lexicon
 
-PRIMITIVES = frozenset("translate rotate orient reach patrol perceive wait picture control dialogue unable".split())
+PRIMITIVES = frozenset(
+    ["translate", "rotate", "orient", "reach", "patrol", "perceive", "wait", "picture", "control", "dialogue", "unable"]
+)
 PARTS = frozenset({"hand", "arm", "legs", "wings"})
-CONTROLS = frozenset("stop continue cancel cancel_all go_back keep_going stop_patrol queue".split())
+CONTROLS = frozenset(["stop", "continue", "cancel", "cancel_all", "go_back", "keep_going", "stop_patrol", "queue"])
 OPERATORS = frozenset({"repeat", "seq"})
 UNAMBIGUOUS = (
     "NOUN",
