@@ -45,10 +45,10 @@ class Sighting:
 class FiducialDetector:
     """Finds markers of known size in images of one camera.
 
-    Measured in the simulated camera with its noise, over 300 random views of a 10 cm marker, 0.4 to 2.5 m away, up to 60
-    degrees oblique: 99 % found, none misread; median error 7 mm and 1.2 degrees, nine in ten within 35 mm and 8 degrees.
-    Up to 1 m it is 2 mm and 0.6 degrees, beyond 2 m 26 mm and 2.7 degrees; there the two solutions can still be mistaken
-    for one another (one view in ten), which ``yaw_deviation_rad`` allows for.
+    Measured in the simulated camera with its noise, over 300 random views of a 10 cm marker (0.4 to 2.5 m away, up to
+    60 degrees oblique): 99 % found, none misread; median error 7 mm and 1.2 degrees, nine in ten within 35 mm and 8
+    degrees. Up to 1 m it is 2 mm and 0.6 degrees; beyond 2 m 26 mm and 2.7 degrees, and there the two solutions can
+    still be mistaken for one another (one view in ten), which ``yaw_deviation_rad`` allows for.
     """
 
     def __init__(self, camera: CameraModel, size_m: float, sizes_m: Mapping[int, float] | None = None) -> None:
