@@ -79,7 +79,7 @@ class Child:
 
     @property
     def exit_status(self) -> int | None:
-        """How it ended of its own accord; None while it lives."""
+        """How it ended for good, negative for a signal; None while it lives."""
         return self._exit_status if self._ended.is_set() else None
 
     def last_words(self) -> str:
@@ -104,9 +104,8 @@ class Child:
         try:
             while not self._closing.is_set():
                 starts = [at for at in starts if time.monotonic() - at < RESTART_WINDOW_S] + [time.monotonic()]
-                status = self._run()
-                if status >= 0 or len(starts) > RESTARTS_MAX:
-                    self._exit_status = status
+                self._exit_status = self._run()
+                if self._exit_status >= 0 or len(starts) > RESTARTS_MAX:
                     return
         finally:
             self._ended.set()
