@@ -81,8 +81,8 @@ class Reaching:
             return Drive(0.0, 0.0, State.FAILED, Phase.FOLLOW, (), self._reason)
         if self._follower is None:
             return self._drive(Twist(0.0, 0.0), view)
-        if self._is_stuck(view) and not self._start_recovery(view):
-            return Drive(0.0, 0.0, State.FAILED, Phase.FOLLOW, (), Reason.STUCK)
+        if self._is_stuck(view):
+            return self._start_recovery(view)
         return self._drive(self._follower.step(view.pose, view.speed_mps, self._clearance(view)), view)
 
     # -------------------------------------------------------------- planning
@@ -175,11 +175,13 @@ class Reaching:
             return False
         return view.now_s - since_s > STUCK_S
 
-    def _start_recovery(self, view: View) -> bool:
+    def _start_recovery(self, view: View) -> Drive:
         self._anchor = None
         self._follower = None
         self._planned_s = -math.inf
-        return self._recovery.start(view.pose, view.now_s)
+        if self._recovery.start(view.pose, view.now_s):
+            return self._recover(view)
+        return Drive(0.0, 0.0, State.FAILED, Phase.RECOVER, (), Reason.STUCK)
 
     def _recover(self, view: View) -> Drive:
         twist = self._recovery.step(view.pose, view.now_s)
