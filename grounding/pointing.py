@@ -60,11 +60,13 @@ def likely_rows(pointing: Term, entities: Entities, rows: Rows) -> Rows:
     if isinstance(target, Name):
         row = entities.index.get(target.text, -1)
         return np.extract(rows == row, rows)
+    sigmas = _sigmas_away(pointing, entities.xy_m[rows])
+    near = sigmas <= _REACH_SIGMAS
+    rows, sigmas = np.extract(near, rows), np.extract(near, sigmas)
     if not len(rows):
         return rows
-    sigmas = _sigmas_away(pointing, entities.xy_m[rows])
     likelihood = np.exp(-0.5 * np.square(sigmas - sigmas.min()))
-    return np.extract((sigmas <= _REACH_SIGMAS) & (likelihood >= _RIVAL), rows)
+    return np.extract(likelihood >= _RIVAL, rows)
 
 
 def _sigmas_away(pointing: Term, xy_m: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -17,7 +17,7 @@ FIGURE3 = find_scene("figure3", files("corpora") / "worlds")
 
 
 def seen(*markers: tuple[str, float, float, float]) -> Fiducials:
-    return Fiducials(tuple(Fiducial(id, (x, y, 0.1), (0.0, 0.0, yaw)) for id, x, y, yaw in markers))
+    return Fiducials(tuple(Fiducial(name, (x, y, 0.1), (0.0, 0.0, yaw)) for name, x, y, yaw in markers))
 
 
 def test_a_thing_is_known_when_its_fiducial_is_seen_and_is_where_it_was_seen() -> None:
