@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from grammar.acts import DialogueAct
 from grammar.forms import Form, Name, Quantity, Term
 from grounding import Entity, Grounded, resolve
@@ -15,7 +13,7 @@ from .events import Pointing, Tone
 from .fusion import fuse, pointing_form, recent, replaced
 from .instructions import confirm, instruct, obey
 from .session import Question
-from .table import Activity, State, Trigger
+from .table import Activity, State
 from .turn import Turn
 
 ASKED_MAX = 3
@@ -79,7 +77,7 @@ def pointed(turn: Turn, pointing: Pointing) -> bool:
     if turn.session.state is not State.AWAITING_REFERENT:
         return False
     among = turn.session.world.only(question.candidates).entities
-    rows = likely_rows(shown, among, np.arange(len(among), dtype=np.intp))
+    rows = likely_rows(shown, among, among.all_rows)
     if len(rows) != 1:
         ask_again(turn)
     else:
@@ -137,6 +135,3 @@ def _fill(turn: Turn, question: Question, filling: Form, time_s: float) -> None:
     acts: tuple[DialogueAct, ...] = tuple(replace(act, form=replaced(act.form, hole, filling)) for act in question.acts)
     turn.settle()
     obey(turn, acts, time_s)
-
-
-__all__ = ["ASKED_MAX", "Trigger", "answer", "ask_again", "no", "pointed", "yes"]

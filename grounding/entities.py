@@ -14,6 +14,8 @@ FIDUCIAL = "fiducial"
 _MARKER_SIZE_M = (0.1, 0.1, 0.1)
 
 Mask = NDArray[np.bool_]
+Rows = NDArray[np.intp]
+NO_ROWS: Rows = np.array([], dtype=np.intp)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,33 +79,38 @@ class Entities:
         return np.array([e.pose.yaw_rad for e in self.items], dtype=np.float64)
 
     @cached_property
-    def marked(self) -> Mask:
-        """Which carry a fiducial, shape (n,)."""
-        return np.array([e.fiducial_id is not None for e in self.items], dtype=np.bool_)
+    def rows_by_fiducial(self) -> dict[str, int]:
+        """Row of each fiducial that marks a thing."""
+        return {e.fiducial_id: row for row, e in enumerate(self.items) if e.fiducial_id is not None}
 
     @cached_property
-    def rows_by_type(self) -> dict[str, NDArray[np.intp]]:
+    def fiducial_rows(self) -> Rows:
+        """Rows of the things that carry a fiducial, or are nothing else."""
+        rows = [row for row, e in enumerate(self.items) if e.fiducial_id is not None or e.type == FIDUCIAL]
+        return np.array(rows, dtype=np.intp)
+
+    @cached_property
+    def all_rows(self) -> Rows:
+        """Every row."""
+        return np.arange(len(self.items), dtype=np.intp)
+
+    @cached_property
+    def rows_by_type(self) -> dict[str, Rows]:
         """Rows of each type that occurs."""
         return _grouped([(e.type,) for e in self.items])
 
     @cached_property
-    def rows_by_attribute(self) -> dict[str, NDArray[np.intp]]:
+    def rows_by_attribute(self) -> dict[str, Rows]:
         """Rows of each attribute that occurs."""
         return _grouped([e.attributes for e in self.items])
 
     @cached_property
-    def rows_by_name(self) -> dict[str, NDArray[np.intp]]:
+    def rows_by_name(self) -> dict[str, Rows]:
         """Rows of each name that was given, in lower case."""
         return _grouped([tuple(name.lower() for name in e.names) for e in self.items])
 
-    def mask(self, rows: NDArray[np.intp]) -> Mask:
-        """Shape (n,), true at ``rows``."""
-        result = np.zeros(len(self.items), dtype=np.bool_)
-        result[rows] = True
-        return result
 
-
-def _grouped(keys_of_rows: list[tuple[str, ...]]) -> dict[str, NDArray[np.intp]]:
+def _grouped(keys_of_rows: list[tuple[str, ...]]) -> dict[str, Rows]:
     groups: dict[str, list[int]] = {}
     for row, keys in enumerate(keys_of_rows):
         for key in keys:

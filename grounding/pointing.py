@@ -14,16 +14,13 @@ from numpy.typing import NDArray
 from grammar.forms import Name, Quantity, Term, Unit
 from robot.geometry import Point, Pose
 
-from .entities import Entities
+from .entities import Entities, Rows
 from .relations import distances_m, local_m
 
 _SPREAD_MIN_M = 0.25  # nobody points at the very middle of a thing
 _SPREAD_MIN_RAD = math.radians(3.0)
 _REACH_SIGMAS = 4.0  # beyond this many standard deviations a thing was not meant
 _RIVAL = 0.35  # a second thing this likely, the likeliest being 1, makes a question
-
-
-Rows = NDArray[np.intp]
 
 
 def point_form(place: Point) -> Term:

@@ -124,8 +124,8 @@ def between(first: Pose, second: Pose, xy_m: Places) -> Mask:
     return (local[:, 0] > _PAST_M) & (local[:, 0] < length_m - _PAST_M) & (np.abs(local[:, 1]) <= _BESIDE_LINE_M)
 
 
-def meeting_order(robot: Pose, xy_m: Places) -> NDArray[np.intp]:
-    """Rows in the order in which the robot would meet them along its heading; those behind it come last."""
+def meeting_key_m(robot: Pose, xy_m: Places) -> NDArray[np.float64]:
+    """Shape (n,): smaller is met sooner along the robot's heading; what lies behind comes after all that lies ahead."""
     ahead_m = local_m(robot, xy_m)[:, 0]
-    behind = ahead_m < 0
-    return np.lexsort((np.abs(ahead_m), behind))
+    farthest_m = float(ahead_m.max(initial=0.0))
+    return np.where(ahead_m >= 0, ahead_m, farthest_m - ahead_m)

@@ -19,7 +19,7 @@ from .descriptions import (
     describe,
     number_of,
 )
-from .entities import FIDUCIAL, Entity, Mask
+from .entities import FIDUCIAL, NO_ROWS, Entity, Mask, Rows
 from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
 from .pointing import likely_rows, pointed_place, pointed_ray, read_point
 from .relations import (
@@ -29,13 +29,12 @@ from .relations import (
     between,
     distances_m,
     local_m,
-    meeting_order,
+    meeting_key_m,
     relation,
 )
 from .world import World
 
 _ANYTHING = frozenset({"one", "object", "obstacle"})
-Rows = NDArray[np.intp]
 
 
 class _Fails(Exception):  # noqa: N818 - a result that ends the evaluation early, never seen outside
@@ -67,7 +66,7 @@ def _direct(form: Form, world: World) -> Resolution | None:
         return Grounded((place,))
     match form:
         case Name(text=name):
-            rows = world.entities.rows_by_name.get(name.lower(), np.array([], dtype=np.intp))
+            rows = world.entities.rows_by_name.get(name.lower(), NO_ROWS)
             return _denoted(form, rows, world)
         case Term(pred="entity", args=(Name(text=id),)):
             entity = world.entities.get(id)
@@ -92,8 +91,8 @@ def _pointed_at(form: Form, pointing: Term, world: World) -> Resolution:
     place = pointed_place(pointing)
     if place is not None:
         return Grounded((place,))
-    every = np.arange(len(world.entities), dtype=np.intp)
-    return _denoted(form, likely_rows(pointing, world.entities, every), world, Reason.POINTED_ELSEWHERE)
+    rows = likely_rows(pointing, world.entities, world.entities.all_rows)
+    return _denoted(form, rows, world, Reason.POINTED_ELSEWHERE)
 
 
 def _pointed_way(form: Form, rest: list[Form], world: World) -> Resolution:
@@ -131,10 +130,9 @@ def _described(description: Description, world: World, lexicon: Lexicon) -> Reso
 
 
 def _reading(description: Description, chain: tuple[Term, ...], world: World, lexicon: Lexicon) -> Resolution:
-    mask = _noun_mask(description, world, lexicon)
+    rows = _noun_rows(description, world)
     for modifier in chain:
-        mask = mask & _modifier_mask(modifier, world, lexicon)
-    rows = np.flatnonzero(mask)
+        rows = _modified(modifier, rows, world, lexicon)
     if description.ordering is not None:
         rows = _ordered(description, rows, world)
     if description.pointing is not None:
@@ -151,7 +149,7 @@ def _denoted(form: Form, rows: Rows, world: World, otherwise: Reason = Reason.NO
     """One thing is meant, or a question arises, or nothing fits."""
     if not len(rows):
         return Unresolved(otherwise, form)
-    order = meeting_order(world.robot, world.entities.xy_m[rows])
+    order = np.argsort(meeting_key_m(world.robot, world.entities.xy_m[rows]), kind="stable")
     entities = tuple(world.entities.items[row] for row in rows[order])
     return Grounded(entities) if len(entities) == 1 else Ambiguous(form, entities)
 
@@ -170,20 +168,17 @@ def _away_m(world: World, rows: Rows) -> NDArray[np.float64]:
     return distances_m((world.robot.x_m, world.robot.y_m), world.entities.xy_m[rows])
 
 
-def _noun_mask(description: Description, world: World, lexicon: Lexicon) -> Mask:
-    mask = _type_mask(description.noun, world, lexicon)
-    for attribute in description.adjectives:
-        rows = world.entities.rows_by_attribute.get(attribute)
-        mask = mask & (world.entities.mask(rows) if rows is not None else np.zeros_like(mask))
-    return mask
-
-
-def _type_mask(noun: str, world: World, lexicon: Lexicon) -> Mask:
+def _noun_rows(description: Description, world: World) -> Rows:
+    entities, noun = world.entities, description.noun
     if noun in _ANYTHING:
-        return np.ones(len(world.entities), dtype=np.bool_)
-    rows = world.entities.rows_by_type.get(noun)
-    mask = np.zeros(len(world.entities), dtype=np.bool_) if rows is None else world.entities.mask(rows)
-    return mask | world.entities.marked if noun == FIDUCIAL else mask
+        rows = entities.all_rows
+    elif noun == FIDUCIAL:
+        rows = entities.fiducial_rows
+    else:
+        rows = entities.rows_by_type.get(noun, NO_ROWS)
+    for attribute in description.adjectives:
+        rows = np.intersect1d(rows, entities.rows_by_attribute.get(attribute, NO_ROWS), assume_unique=True)
+    return rows
 
 
 def _ordered(description: Description, rows: Rows, world: World) -> Rows:
@@ -195,39 +190,40 @@ def _ordered(description: Description, rows: Rows, world: World) -> Rows:
         return rows[[np.argmin(_away_m(world, rows))]]
     if ordering in ("farthest", "furthest"):
         return rows[[np.argmax(_away_m(world, rows))]]
-    along = rows[meeting_order(world.robot, world.entities.xy_m[rows])]
+    key_m = meeting_key_m(world.robot, world.entities.xy_m[rows])
     if ordering == LAST:
         # The last one ahead: what lies behind was passed already, unless there is nothing else.
-        ahead = local_m(world.robot, world.entities.xy_m[along])[:, 0] >= 0
-        return along[ahead][-1:] if ahead.any() else along[-1:]
+        ahead = local_m(world.robot, world.entities.xy_m[rows])[:, 0] >= 0
+        return rows[[np.argmax(np.where(ahead, key_m, -1.0) if ahead.any() else key_m)]]
     rank = ORDINALS.get(ordering or "", 1)
-    if rank > len(along):
-        raise _Fails(Unresolved(Reason.TOO_FEW, description.form, len(along)))
-    return along[rank - 1 : rank]
+    if rank > len(rows):
+        raise _Fails(Unresolved(Reason.TOO_FEW, description.form, len(rows)))
+    return rows[np.argpartition(key_m, rank - 1)[[rank - 1]]]
 
 
-def _modifier_mask(modifier: Term, world: World, lexicon: Lexicon) -> Mask:
-    """Which things a modifier holds of, shape (n,).
+def _modified(modifier: Term, rows: Rows, world: World, lexicon: Lexicon) -> Rows:
+    """Those of ``rows`` of which a modifier holds.
 
     Raises:
         _Fails: its landmark denotes nothing, or the modifier means nothing here.
     """
     number = number_of(modifier)
     if number is not None:
-        return np.array([e.fiducial_id == number for e in world.entities.items], dtype=np.bool_)
+        return np.extract(rows == world.entities.rows_by_fiducial.get(number, -1), rows)
+    xy_m = world.entities.xy_m[rows]
     region = _region(modifier)
     if region is not None:
-        return REGIONS[region](local_m(world.robot, world.entities.xy_m))
+        return np.extract(REGIONS[region](local_m(world.robot, xy_m)), rows)
     entry = lexicon.relations.get(modifier.pred)
     if entry is not None and entry.value == BETWEEN and len(modifier.args) == 2:
         firsts, seconds = (_landmarks(arg, world, lexicon) for arg in modifier.args)
         pairs = [(a, b) for a in firsts for b in seconds if a.id != b.id]
-        return _any([between(a.pose, b.pose, world.entities.xy_m) for a, b in pairs], world)
+        return _where_any([between(a.pose, b.pose, xy_m) for a, b in pairs], rows)
     holds = None if entry is None else relation(entry)
     if holds is None or len(modifier.args) != 1:
         raise _Fails(Unresolved(Reason.NOT_A_PLACE, modifier))
     landmarks = _landmarks(modifier.args[0], world, lexicon)
-    return _any([holds(world.robot, landmark.pose, world.entities.xy_m) for landmark in landmarks], world)
+    return _where_any([holds(world.robot, landmark.pose, xy_m) for landmark in landmarks], rows)
 
 
 def _region(modifier: Term) -> str | None:
@@ -253,5 +249,5 @@ def _landmarks(form: Form, world: World, lexicon: Lexicon) -> tuple[Entity, ...]
             raise _Fails(failure)
 
 
-def _any(masks: list[Mask], world: World) -> Mask:
-    return np.logical_or.reduce(masks) if masks else np.zeros(len(world.entities), dtype=np.bool_)
+def _where_any(masks: list[Mask], rows: Rows) -> Rows:
+    return np.extract(np.logical_or.reduce(masks), rows) if masks else NO_ROWS
