@@ -159,6 +159,8 @@ def _flip_doubt_rad(fits: list[_Fit]) -> float:
 
 def _parameters() -> cv2.aruco.DetectorParameters:
     parameters = cv2.aruco.DetectorParameters()
+    # Two thresholding windows find as many markers as OpenCV's three, in two thirds of the time.
+    parameters.adaptiveThreshWinSizeMin, parameters.adaptiveThreshWinSizeStep = 7, 16
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     # The window follows the marker's size in the image, so that it holds the corner and nothing else.
     parameters.cornerRefinementWinSize = 10

@@ -19,7 +19,6 @@ _MODULE_PX = 16
 _PAPER_GAP_M = 0.002  # in front of the side it is stuck to, so that the two surfaces do not fight in the depth buffer
 
 _WALL_COLOUR = (0.80, 0.80, 0.76)
-_FLOOR_COLOUR = (0.46, 0.42, 0.38)
 _PLAIN = (0.72, 0.58, 0.42)
 _COLOURS = {
     "red": (0.80, 0.10, 0.10),
@@ -53,7 +52,7 @@ def _lay_floor(client: int) -> None:
     floor = pybullet.createMultiBody(0, ground, physicsClientId=client)
     pybullet.changeDynamics(floor, -1, lateralFriction=1.0, physicsClientId=client)
     pybullet.setCollisionFilterGroupMask(floor, -1, FLOOR_GROUP, ROBOT_GROUP, physicsClientId=client)
-    pybullet.changeVisualShape(floor, -1, rgbaColor=[*_FLOOR_COLOUR, 1], physicsClientId=client)
+    pybullet.changeVisualShape(floor, -1, rgbaColor=[0, 0, 0, 0], physicsClientId=client)  # the camera paints it
 
 
 def _stand_wall(wall: Wall, client: int) -> int:
