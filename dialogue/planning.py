@@ -13,6 +13,7 @@ from enum import Enum
 
 from grammar.forms import Form, Quantity, Term, Unit
 from grounding import Ambiguous, Entity, Grounded, Heading, Reason, Resolution, Unresolved, World, approach, resolve
+from grounding.places import BEFORE, goal_place
 from robot.geometry import Point, wrap_angle
 from robot.messages import (
     COORDINATE_MAX_M,
@@ -33,9 +34,6 @@ from .programs import bind, substitute
 
 COMMANDS_MAX = 100
 """In one utterance; more is more likely misunderstood than meant."""
-
-_AT_THING = frozenset({"to", "at", "near", "next_to", "by", "toward"})
-"""Relations whose place, for a thing that one can stand before, is where one stands before it."""
 
 _ANGLE_STEP_DEG = 0.1  # what a turn that was computed is rounded to
 _PLACE_DECIMALS = 3
@@ -191,19 +189,36 @@ class _Planner:
 
     def reach(self, form: Term) -> None:
         """``reach(place)``: go there; in front of a thing, and facing it at the end."""
-        (goal,) = form.args
-        if isinstance(goal, Term) and goal.pred in _AT_THING and len(goal.args) == 1:
-            goal = goal.args[0]
-        if goal == Term("here"):  # to come here is to come to the speaker, whose place is not known
-            raise _Stops(Unresolved(Reason.NEEDS_POINTING, goal))
-        target = self._meant(goal)
-        if isinstance(target, Heading):
-            raise _Stops(Refused(Refusal.WRONG_ARGUMENT, form))
+        target = self._goal(form)
         place = target if isinstance(target, Point) else approach(target, self.world.walls).point
         _check_limit(form, max(abs(place.x_m), abs(place.y_m)), COORDINATE_MAX_M)
         self.add(GoTo(round(place.x_m, _PLACE_DECIMALS), round(place.y_m, _PLACE_DECIMALS)))
         if isinstance(target, Entity):
             self._face(target)
+
+    def _goal(self, form: Term) -> Point | Entity:
+        """The place to be at, or the thing to stand before."""
+        (goal,) = form.args
+        if goal in (Term("here"), Term("to", (Term("here"),))):
+            # To come here is to come to the speaker, whose place is not known.
+            raise _Stops(Unresolved(Reason.NEEDS_POINTING, Term("here")))
+        relation = self.lexicon.relations.get(goal.pred) if isinstance(goal, Term) and goal.args else None
+        if relation is None or not isinstance(goal, Term):
+            return self._place_or_thing(goal, form)
+        if relation.value in BEFORE and len(goal.args) == 1:
+            return self._place_or_thing(goal.args[0], form)
+        landmarks = tuple(m for arg in goal.args if isinstance(m := self._meant(arg), Entity))
+        place = goal_place(relation.value, self.world.robot.point, landmarks)
+        if place is None:
+            raise _Stops(Refused(Refusal.NOT_ABLE, form))
+        self.places.append(place)
+        return place
+
+    def _place_or_thing(self, goal: Form, form: Term) -> Point | Entity:
+        target = self._meant(goal)
+        if isinstance(target, Heading):
+            raise _Stops(Refused(Refusal.WRONG_ARGUMENT, form))
+        return target
 
     def patrol(self, form: Term) -> None:
         """``patrol([sides,radius,increment])``."""

@@ -1,0 +1,62 @@
+"""The place that a relation to a landmark names as a goal: "behind the table", "past the door", "between the boxes"."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+from robot.geometry import Point
+
+from .entities import Entity
+from .relations import COMPASS_RAD
+
+CLEAR_M = 0.5
+"""From the side of a thing to the middle of the robot beside it."""
+
+BEFORE = frozenset({"path.goal", "path.direction", "path.via", "RCC8.DC", "RCC8.EC"})
+"""Relations whose place, for a thing that one can stand before, is where one stands before it."""
+
+_Place = Callable[[Point, Entity], Point]
+
+
+def goal_place(value: str, robot: Point, landmarks: tuple[Entity, ...]) -> Point | None:
+    """Where a relation of this value (see its entry) leads, seen from the robot; None if it names no one place."""
+    if value == "projective.between" and len(landmarks) == 2:
+        first, second = (landmark.point for landmark in landmarks)
+        return Point((first.x_m + second.x_m) / 2, (first.y_m + second.y_m) / 2)
+    place = _PLACES.get(value)
+    return None if place is None or len(landmarks) != 1 else place(robot, landmarks[0])
+
+
+def _reach_m(landmark: Entity) -> float:
+    return max(landmark.size_m[:2]) / 2 + CLEAR_M
+
+
+def _own(angle_rad: float) -> _Place:
+    """On a side of the thing's own."""
+    return lambda robot, thing: thing.point.moved(_reach_m(thing), thing.pose.yaw_rad + angle_rad)
+
+
+def _seen(angle_rad: float) -> _Place:
+    """On a side as seen from the robot; 0 lies beyond the thing."""
+    return lambda robot, thing: thing.point.moved(_reach_m(thing), robot.bearing_to(thing.point) + angle_rad)
+
+
+def _on_map(angle_rad: float) -> _Place:
+    return lambda robot, thing: thing.point.moved(_reach_m(thing), angle_rad)
+
+
+_PLACES: Mapping[str, _Place] = {
+    "projective.front": _own(0.0),
+    "projective.back": _own(math.pi),
+    "projective.left": _seen(math.pi / 2),
+    "projective.right": _seen(-math.pi / 2),
+    "projective.away": lambda robot, thing: robot.moved(1.0, thing.point.bearing_to(robot)),
+    "path.past": _seen(0.0),
+    "path.around": _seen(0.0),
+    "path.through": _seen(0.0),
+    "path.across": _seen(0.0),
+    "path.in": lambda robot, thing: thing.point,
+    "RCC8.NTPP": lambda robot, thing: thing.point,
+    **{f"cardinal.{name}": _on_map(yaw_rad) for name, yaw_rad in COMPASS_RAD.items()},
+}
