@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.geometry import Point
-from robot.mapping.grid import OCCUPIED_LOG_ODDS, OccupancyGrid, Window
+from robot.mapping.grid import OCCUPIED_LOG_ODDS, OccupancyGrid
 
 FORBIDDEN = -1.0  # what scikit-image's MCP takes as impassable
 MARGIN_M = 0.03  # on top of the robot's radius: half a cell of the grid's rounding
@@ -24,7 +24,6 @@ UNKNOWN_COST = 0.6
 ESCAPE_COST = 20.0
 ESCAPE_RADIUS_M = 0.4
 BORDER_M = 1.2  # of unknown space around everything known, so that the outside can be tried
-MAX_CELLS = 250_000  # beyond this cells are taken two by two, and so on
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,38 +72,16 @@ def build_costmap(grid: OccupancyGrid, start: Point, places: tuple[Point, ...], 
     for place in (start, *places):
         window = window.union(grid.window_around(place, 0.0))
     window = window.grown(math.ceil(BORDER_M / grid.resolution_m))
-    factor = math.ceil(math.sqrt(window.shape[0] * window.shape[1] / MAX_CELLS))
-    window = _rounded(window, factor)
-    occupied, unknown = _sampled(grid.cells(window), factor)
-    resolution_m = grid.resolution_m * factor
-    distances_m = _distances(occupied, resolution_m)
+    cells = grid.cells(window)
+    distances_m = _distances(cells > OCCUPIED_LOG_ODDS, grid.resolution_m)
     left_m, bottom_m = window.left * grid.resolution_m, window.bottom * grid.resolution_m
     hard_m = radius_m + MARGIN_M
     costs = 1.0 + NEAR_COST * np.exp((hard_m - distances_m) / NEAR_FALLOFF_M, dtype=np.float32)
-    costs += UNKNOWN_COST * unknown
-    forbidden = distances_m < hard_m
-    costs[forbidden] = FORBIDDEN
-    costmap = Costmap(left_m, bottom_m, resolution_m, costs.astype(np.float64), distances_m)
+    costs[cells == 0.0] += UNKNOWN_COST
+    costs[distances_m < hard_m] = FORBIDDEN
+    costmap = Costmap(left_m, bottom_m, grid.resolution_m, costs.astype(np.float64), distances_m)
     _open_around(costmap, start)
     return costmap
-
-
-def _rounded(window: Window, factor: int) -> Window:
-    """The window widened until both sides are multiples of ``factor``."""
-    rows, columns = window.shape
-    return Window(window.left, window.bottom, window.right + -columns % factor, window.top + -rows % factor)
-
-
-def _sampled(cells: NDArray[np.float32], factor: int) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which cells are occupied and which unknown, ``factor`` by ``factor`` taken together."""
-    occupied: NDArray[np.bool_] = np.greater(cells, OCCUPIED_LOG_ODDS)
-    unknown: NDArray[np.bool_] = np.equal(cells, 0.0)
-    if factor == 1:
-        return occupied, unknown
-    blocks = (cells.shape[0] // factor, factor, cells.shape[1] // factor, factor)
-    return np.maximum.reduce(occupied.reshape(blocks), axis=(1, 3)), np.minimum.reduce(
-        unknown.reshape(blocks), axis=(1, 3)
-    )
 
 
 def _distances(occupied: NDArray[np.bool_], resolution_m: float) -> NDArray[np.float32]:

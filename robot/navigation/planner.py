@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +11,11 @@ from skimage.graph import MCP_Geometric
 
 from robot.geometry import Point
 
-from .costmap import Costmap
+from .costmap import FORBIDDEN, Costmap
 from .goals import Reason
 
 GOAL_TOLERANCE_M = 0.3  # how far a goal inside an obstacle may be moved
+BLOCKS_MAX = 120_000  # searched in one plan
 # The search knows eight directions, so its path is up to a twelfth too long: it is drawn straight afterwards.
 PICKED = 24
 SAMPLES_MAX = 500
@@ -36,46 +37,80 @@ class Plan:
 
 def plan(costmap: Costmap, start: Point, goal: Point) -> Plan | Reason:
     """The cheapest way, or why there is none even through unknown space."""
+    search = _Search(costmap, start)
     if costmap.is_free(goal):
-        return _plan_to(costmap, start, goal, costmap.cell_of(goal)) or Reason.CUT_OFF
-    cell = _stand_in(costmap, start, goal)
-    if cell is None:
+        return search.plan(goal) or Reason.CUT_OFF
+    place = search.stand_in(goal)
+    if place is None:
         return Reason.OCCUPIED
-    place = costmap.place_of(*cell)
-    found = _plan_to(costmap, start, place, cell)
-    return Reason.CUT_OFF if found is None else Plan(found.path, found.cost_m, place)
+    found = search.plan(place)
+    return Reason.CUT_OFF if found is None else replace(found, moved_to=place)
 
 
-def _plan_to(costmap: Costmap, start: Point, goal: Point, goal_cell: Cell) -> Plan | None:
-    search = MCP_Geometric(costmap.costs)
-    costs, _ = search.find_costs([costmap.cell_of(start)], [goal_cell])
-    cost = float(costs[goal_cell])
-    if not math.isfinite(cost):
-        return None
-    cells = search.traceback(goal_cell)
-    places = [start, *(costmap.place_of(*cell) for cell in cells[1:-1]), goal]
-    along = np.array([costs[cell] for cell in cells], np.float64) * costmap.resolution_m
-    if len(places) > len(along):
-        along = np.array([0.0, along[-1]])
-    return Plan(_taut(costmap, _shortened(costmap, places, along)), cost * costmap.resolution_m)
+class _Search:
+    """Dijkstra's search from one place, over blocks of cells where the map is large.
+
+    A block costs what its cheapest cell does, and the path goes through that cell.
+    """
+
+    def __init__(self, costmap: Costmap, start: Point) -> None:
+        self._costmap = costmap
+        self._start = start
+        rows, columns = costmap.costs.shape
+        self._side = math.ceil(math.sqrt(rows * columns / BLOCKS_MAX))
+        self._blocks = _cheapest(costmap.costs, self._side)
+        self._mcp = MCP_Geometric(self._blocks)
+
+    def plan(self, goal: Point) -> Plan | None:
+        start, end = self._block_of(self._start), self._block_of(goal)
+        costs, _ = self._mcp.find_costs([start], [end])
+        if not math.isfinite(costs[end]):
+            return None
+        blocks = self._mcp.traceback(end)
+        metres = self._costmap.resolution_m * self._side
+        along = [float(costs[block]) * metres for block in blocks]
+        between = [(self._place_of(block), cost) for block, cost in zip(blocks, along, strict=True)][1:-1]
+        places = [self._start, *(place for place, _ in between), goal]
+        path = _shortened(self._costmap, places, [0.0, *(cost for _, cost in between), along[-1]])
+        return Plan(_taut(self._costmap, path), along[-1])
+
+    def stand_in(self, goal: Point) -> Point | None:
+        """The reachable place nearest to ``goal``, within the tolerance; of equals the first in row order."""
+        costmap, (row, column) = self._costmap, self._costmap.cell_of(goal)
+        reach = math.ceil(GOAL_TOLERANCE_M / costmap.resolution_m)
+        rows, columns = np.mgrid[row - reach : row + reach + 1, column - reach : column + reach + 1]
+        costs, _ = self._mcp.find_costs([self._block_of(self._start)])
+        reached = (costmap.costs[rows, columns] >= 0.0) & np.isfinite(costs[rows // self._side, columns // self._side])
+        away_m = np.where(reached, np.hypot(rows - row, columns - column) * costmap.resolution_m, np.inf)
+        best = int(away_m.argmin())
+        if away_m.flat[best] > GOAL_TOLERANCE_M:
+            return None
+        return costmap.place_of(int(rows.flat[best]), int(columns.flat[best]))
+
+    def _block_of(self, place: Point) -> Cell:
+        row, column = self._costmap.cell_of(place)
+        return row // self._side, column // self._side
+
+    def _place_of(self, block: Cell) -> Point:
+        row, column = block[0] * self._side, block[1] * self._side
+        cells = self._costmap.costs[row : row + self._side, column : column + self._side]
+        best = int(np.where(cells < 0.0, np.inf, cells).argmin())
+        return self._costmap.place_of(row + best // cells.shape[1], column + best % cells.shape[1])
 
 
-def _stand_in(costmap: Costmap, start: Point, goal: Point) -> Cell | None:
-    """The cell nearest to ``goal``, within the tolerance, that can be reached; the first in row order of equals."""
-    row, column = costmap.cell_of(goal)
-    reach = math.ceil(GOAL_TOLERANCE_M / costmap.resolution_m)
-    bottom, left = max(row - reach, 0), max(column - reach, 0)
-    costs, _ = MCP_Geometric(costmap.costs).find_costs([costmap.cell_of(start)])
-    near = costs[bottom : row + reach + 1, left : column + reach + 1]
-    rows, columns = np.nonzero(np.isfinite(near))
-    if not len(rows):
-        return None
-    away = np.hypot(rows + bottom - row, columns + left - column) * costmap.resolution_m
-    best = int(away.argmin())
-    return (int(rows[best]) + bottom, int(columns[best]) + left) if away[best] <= GOAL_TOLERANCE_M else None
+def _cheapest(costs: NDArray[np.float64], side: int) -> NDArray[np.float64]:
+    """The least cost in each block of ``side`` by ``side`` cells; forbidden where all of them are."""
+    if side == 1:
+        return costs
+    rows, columns = costs.shape
+    open_costs = np.where(costs < 0.0, np.inf, costs)
+    padded = np.pad(open_costs, ((0, -rows % side), (0, -columns % side)), constant_values=np.inf)
+    least = np.minimum.reduce([padded[i::side, j::side] for i in range(side) for j in range(side)])
+    blocks: NDArray[np.float64] = np.where(np.isfinite(least), least, FORBIDDEN)
+    return blocks
 
 
-def _shortened(costmap: Costmap, places: list[Point], along: NDArray[np.float64]) -> tuple[Point, ...]:
+def _shortened(costmap: Costmap, places: list[Point], along: list[float]) -> tuple[Point, ...]:
     """Corners only: of evenly spread places on the path, the cheapest sequence joined by straight lines.
 
     Where even neighbours are not in sight of each other, all of the path between them is kept. ``along`` is the cost of
@@ -86,7 +121,7 @@ def _shortened(costmap: Costmap, places: list[Point], along: NDArray[np.float64]
     lines = _line_costs(costmap, [places[number] for number in picked])
     best, before = [0.0], [0]
     for end in range(1, len(picked)):
-        path_m = float(along[picked[end]] - along[picked[end - 1]])
+        path_m = along[picked[end]] - along[picked[end - 1]]
         through = [best[start] + float(lines[start, end]) + CORNER_M for start in range(end)]
         through[-1] = min(through[-1], best[-1] + path_m + NOT_STRAIGHT_M)
         before.append(int(np.argmin(through)))

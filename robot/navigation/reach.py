@@ -32,6 +32,7 @@ STUCK_M = 0.05
 STUCK_RAD = 0.3
 PATIENCE_S = 90.0  # without a cheaper way or anything new on the map
 NEWS_CELLS = 40
+NEAR_ENOUGH_M = 0.1  # a goal so near that cannot be driven onto counts as moved
 BEHIND_RAD = math.radians(120.0)
 
 
@@ -57,6 +58,7 @@ class Reaching:
         self._backwards_allowed = goal.reverse
         self._moved_to: Point | None = None
         self._planned_s = -math.inf
+        self._planned_cells = 0
         self._checked_scan_s = -math.inf
         self._no_way = 0
         self._reason: Reason | None = None
@@ -82,7 +84,7 @@ class Reaching:
         if self._follower is None:
             return self._drive(Twist(0.0, 0.0), view)
         if self._is_stuck(view):
-            return self._start_recovery(view)
+            return self._stuck(view)
         return self._drive(self._follower.step(view.pose, view.speed_mps, self._clearance(view)), view)
 
     # -------------------------------------------------------------- planning
@@ -93,10 +95,13 @@ class Reaching:
         if waited_s < REPLAN_AT_LEAST_S or self._checked_scan_s == view.surroundings.time_s:
             return False
         self._checked_scan_s = view.surroundings.time_s
-        return self._is_blocked(view) or (waited_s >= REPLAN_EVERY_S and not self._follower.backwards)
+        if self._is_blocked(view):
+            return True
+        news = abs(view.grid.known_cells - self._planned_cells) >= NEWS_CELLS
+        return news and waited_s >= REPLAN_EVERY_S and not self._follower.backwards
 
     def _plan(self, view: View) -> None:
-        self._planned_s = view.now_s
+        self._planned_s, self._planned_cells = view.now_s, view.grid.known_cells
         if self._backwards_allowed and self._plan_backwards(view):
             return
         rest = self._follower.rest(view.pose) if self._follower is not None else ()
@@ -175,8 +180,12 @@ class Reaching:
             return False
         return view.now_s - since_s > STUCK_S
 
-    def _start_recovery(self, view: View) -> Drive:
+    def _stuck(self, view: View) -> Drive:
         self._anchor = None
+        if view.pose.point.distance_to(self.goal.place) < NEAR_ENOUGH_M:
+            # What the laser sees leaves no room for the last step, finer than the grid's cells can tell.
+            self._moved_to = view.pose.point
+            return self._arrived(view)
         self._follower = None
         self._planned_s = -math.inf
         if self._recovery.start(view.pose, view.now_s):
