@@ -18,6 +18,7 @@ BRAKE_SHARE = 0.6  # of the body's acceleration
 STEP_M = 0.02
 CLOSER_M = 0.003  # less than this is noise, not an approach
 CREEP_MPS = 0.015
+STANDSTILL_MPS = 1e-4
 
 Floats = NDArray[np.float64]
 
@@ -49,7 +50,7 @@ def safe_speed(
 
     Moving away from what is already too near is always allowed. Turning in place keeps within the robot's circle.
     """
-    if linear_mps == 0.0 or not len(surroundings.points):
+    if abs(linear_mps) < STANDSTILL_MPS or not len(surroundings.points):
         return linear_mps
     brake = BRAKE_SHARE * limits.linear_acceleration_mps2
     reach_m = linear_mps**2 / (2.0 * brake) + abs(linear_mps) * REACTION_S + KEEP_AWAY_M + STEP_M

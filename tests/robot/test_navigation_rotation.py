@@ -83,10 +83,11 @@ def test_a_paused_turn_resumes_by_the_right_amount(angle_deg: float, restart: bo
 near = st.floats(-1.0, 1.0)
 
 
-@given(st.lists(st.tuples(near, near), max_size=8), st.floats(-0.26, 0.26), st.floats(-1.8, 1.8))
+@given(st.lists(st.tuples(near, near), max_size=8), st.integers(-26, 26), st.floats(-1.8, 1.8))
 def test_the_shield_only_slows_and_never_lets_the_robot_drive_into_what_it_sees(
-    points: list[tuple[float, float]], linear: float, angular: float
+    points: list[tuple[float, float]], centimetres_per_s: int, angular: float
 ) -> None:
+    linear = centimetres_per_s / 100.0
     cloud = np.array([p for p in points if math.hypot(*p) > 0.24]).reshape(-1, 2)
     speed = safe_speed(linear, angular, ORIGIN, Surroundings(0.0, cloud), WAFFLE_PI)
     assert abs(speed) <= abs(linear)
