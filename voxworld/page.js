@@ -87,24 +87,33 @@
     if (press) clearTimeout(press.timer);
     press = null;
   };
-  const send = (type, init, target) => target.dispatchEvent(new PointerEvent(type, { ...init, bubbles: true, cancelable: true }));
-  document.addEventListener("pointerdown", (event) => {
+  const send = (type, init, target) =>
+    target.dispatchEvent(new PointerEvent(type, { ...init, bubbles: true, cancelable: true }));
+  // End the press that has begun somewhere else, so that it is no click, and make one with Alt in its place.
+  const lengthen = () => {
+    const { init, target } = press;
     forget();
-    if (!event.isTrusted || event.button !== 0 || event.altKey || !(event.target instanceof HTMLCanvasElement)) return;
-    const { clientX, clientY, pointerId, pointerType, target } = event;
+    send("pointermove", { ...init, clientX: init.clientX + 40, buttons: 1 }, target);
+    send("pointerup", { ...init, clientX: init.clientX + 40, buttons: 0 }, target);
+    send("pointerdown", { ...init, buttons: 1, altKey: true }, target);
+    send("pointerup", { ...init, buttons: 0, altKey: true }, target);
+  };
+  document.addEventListener("pointerdown", (event) => {
+    if (!event.isTrusted) return;
+    forget();
+    if (event.button !== 0 || event.altKey || event.shiftKey || !(event.target instanceof HTMLCanvasElement)) return;
+    const { clientX, clientY, pointerId, pointerType, target, timeStamp } = event;
     const init = { clientX, clientY, pointerId, pointerType, isPrimary: true, button: 0 };
-    const timer = setTimeout(() => {
-      press = null;
-      // End the press that has begun somewhere else, so that it is no click, and make one with Alt in its place.
-      send("pointermove", { ...init, clientX: clientX + 40, buttons: 1 }, target);
-      send("pointerup", { ...init, clientX: clientX + 40, buttons: 0 }, target);
-      send("pointerdown", { ...init, buttons: 1, altKey: true }, target);
-      send("pointerup", { ...init, buttons: 0, altKey: true }, target);
-    }, LONG_PRESS_MS);
-    press = { timer, clientX, clientY };
+    press = { init, target, timeStamp, timer: setTimeout(lengthen, LONG_PRESS_MS) };
   }, true);
   document.addEventListener("pointermove", (event) => {
-    if (press && event.isTrusted && Math.hypot(event.clientX - press.clientX, event.clientY - press.clientY) > STILL_PX) forget();
+    if (!press || !event.isTrusted) return;
+    if (Math.hypot(event.clientX - press.init.clientX, event.clientY - press.init.clientY) > STILL_PX) forget();
   }, true);
-  document.addEventListener("pointerup", (event) => { if (event.isTrusted) forget(); }, true);
+  document.addEventListener("pointerup", (event) => {
+    if (!press || !event.isTrusted) return;
+    if (event.timeStamp - press.timeStamp < LONG_PRESS_MS) return forget();
+    event.stopImmediatePropagation(); // a slow page: the timer is still waiting for its turn
+    lengthen();
+  }, true);
 })();

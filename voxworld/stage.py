@@ -176,19 +176,22 @@ class Stage:
 
     def _lay_ground(self) -> viser.BoxHandle:
         self._scene.set_up_direction("+z")
-        self._scene.configure_default_lights(cast_shadow=False)
-        self._scene.add_light_ambient("/light/ambient", intensity=0.5)
+        self._scene.set_background_image(_sky(), format="png")
+        self._scene.configure_default_lights(enabled=False)
+        self._scene.configure_environment_map(None)
+        self._scene.add_light_ambient("/light/sky", intensity=1.7)
+        self._scene.add_light_directional("/light/sun", intensity=2.0, position=(-3.0, 2.0, 5.0))
         self._scene.add_grid(
             "/floor/grid",
             plane="xy",
             infinite_grid=True,
             cell_size=0.5,
             section_size=1.0,
-            cell_color=(196, 198, 200),
-            section_color=(170, 174, 178),
+            cell_color=(126, 132, 142),
+            section_color=(116, 122, 132),
             cell_thickness=0.6,
             section_thickness=0.9,
-            fade_distance=30.0,
+            fade_distance=22.0,
             shadow_opacity=0.0,
             position=(0.0, 0.0, FLOOR_HEIGHT_M * 1.5),
         )
@@ -298,6 +301,13 @@ class Stage:
         )
 
 
+def _sky() -> NDArray[np.uint8]:
+    """A picture of a pale sky, shape (64, 64, 3)."""
+    share = np.linspace(0.0, 1.0, 64)[:, None, None]
+    shades = (1 - share) * np.array((176, 200, 226)) + share * np.array((236, 240, 244))
+    return np.broadcast_to(shades, (64, 64, 3)).astype(np.uint8)
+
+
 def _on_floor(point: VirtualPoint) -> Vector:
     place = to_map(point)
     return place.x_m, place.y_m, max(point.y_m, 0.04)
@@ -328,7 +338,7 @@ def _turtlebot(scene: viser.SceneApi, name: str, placement: Placement) -> viser.
         nose.faces,
         color=(72, 180, 120),
         flat_shading=True,
-        scale=(0.14, 0.02, 0.12),
+        scale=(0.02, 0.14, 0.12),
         wxyz=(0.7071, 0.0, 0.7071, 0.0),
         position=(0.10, 0.0, 0.13),
     )
