@@ -20,7 +20,7 @@ from .walls import Wall
 
 Floats = NDArray[np.float64]
 
-GATES_M = (0.25, 0.15, 0.08, 0.08)  # the farthest a point may lie from its wall, in each round
+GATES_M = (0.25, 0.12, 0.08)  # the farthest a point may lie from its wall, in each round
 END_SLACK_M = 0.05
 OUTLIER_M = 0.03  # where the weight of a residual has fallen to a half
 NEAR_M = 5.0
