@@ -102,7 +102,7 @@ class Repl:
         place = (
             ""
             if pose is None
-            else f" | at ({pose.x_m:.2f}, {pose.y_m:.2f}) facing {math.degrees(pose.yaw_rad):.0f} deg"
+            else f" | at ({pose.x_m:.2f}, {pose.y_m:.2f}) facing {round(math.degrees(pose.yaw_rad))} deg"
         )
         pending = f" | {len(agent.queue)} to do" if agent.queue else ""
         return f" {agent.state}{place}{pending}"

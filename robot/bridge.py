@@ -143,10 +143,10 @@ class Bridge:
         """Let go of Redis; the keys stay."""
         self._closed.set()
         self._taken.set()
+        if self._thread.is_alive():
+            self._thread.join(timeout=2 * WATCH_S)  # it may be waiting for a command: not under its feet
         self._client.close()
         self._watcher.close()
-        if self._thread.is_alive():
-            self._thread.join(timeout=WATCH_S)
 
     # ------------------------------------------------------------------ exchanging
     def _open(self) -> Boot:

@@ -9,7 +9,7 @@ from .control import PERIOD_S, Robot
 from .errors import RobotError
 
 SPEED_MAX = 1_000.0
-LOOK_S = 2.0  # as fast as possible, the robot looks around for so long before it says READY
+LOOK_S = 2.0  # the robot stands and looks for so long before it says READY: "the first one" needs something seen
 SETTLE_S = 1.0  # and comes to rest before it tells that it is done
 IDLE_S = 0.25
 BEHIND_MAX_S = 0.5
@@ -34,6 +34,7 @@ def parse_speed(text: str) -> float | None:
 
 def run(robot: Robot, speed: float | None, stopping: threading.Event) -> None:
     """Run until ``stopping`` is set; at ``speed`` simulated seconds a second, or as fast as possible if None."""
+    robot.settle(LOOK_S)
     if speed is None:
         _run_freely(robot, stopping)
     else:
@@ -58,7 +59,6 @@ def _run_freely(robot: Robot, stopping: threading.Event) -> None:
     What is done is told after the robot has come to rest: who answers at once finds it at rest, always in the same
     place.
     """
-    robot.settle(LOOK_S)
     while not stopping.is_set():
         robot.attend()
         if not robot.busy:
