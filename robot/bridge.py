@@ -83,6 +83,7 @@ class Bridge:
             ) from None
         self._script = self._client.register_script(files(__package__).joinpath("bridge.lua").read_text())
         self._batches: list[dict[str, Any]] = []
+        self._sent = 0  # of the batches, those that Redis may have applied already
         self._batch = self._seen = self._resets = 0
         self._latest: dict[str, str] = {}
         self._heard_s = time.monotonic()
@@ -175,18 +176,19 @@ class Bridge:
 
     def _collect(self, news: News) -> None:
         if news.feedback or news.ended or news.record is not None or news.map is not None:
-            self._batch += 1
-            batch = {
-                "number": self._batch,
-                "handled": self._seen,
-                "resets": self._resets,
-                "ended": news.ended,
-                "feedback": [encode_feedback(entry) for entry in news.feedback],
-                "fields": [_flat(feedback_fields(entry)) for entry in news.feedback],
-                "state": news.record or False,
-                "map": encode_map(news.map) if news.map else False,
-            }
-            self._batches.append(batch)
+            if len(self._batches) == self._sent:
+                self._batch += 1
+                self._batches.append({"number": self._batch, "ended": [], "feedback": [], "fields": []})
+            # A batch may grow until it is first sent: while Redis is away there is one, however long that takes.
+            batch = self._batches[-1]
+            batch |= {"handled": self._seen, "resets": self._resets}
+            batch["ended"].extend(news.ended)
+            batch["feedback"].extend(encode_feedback(entry) for entry in news.feedback)
+            batch["fields"].extend(_flat(feedback_fields(entry)) for entry in news.feedback)
+            if news.record is not None:
+                batch["state"] = news.record
+            if news.map is not None:
+                batch["map"] = encode_map(news.map)
         if news.odom is not None:
             self._latest["odom"] = encode_odom(news.odom)
         if news.fiducials is not None:
@@ -207,6 +209,7 @@ class Bridge:
             "status_expiry": STATUS_EXPIRY_S,
         }
         news = json.dumps({"batches": self._batches, **limits, **self._latest})
+        self._sent = len(self._batches)
         answer: list[Any] = self._script(keys=names, args=[self._token, self._seen, TAKE_MAX, ENTRY_MAX_BYTES, news])
         return answer
 
@@ -215,6 +218,7 @@ class Bridge:
         if not owner:
             raise ReplacedError("another robot has taken over these keys: give each its own --namespace")
         self._batches.clear()
+        self._sent = 0
         self._latest.clear()
         self._heard_s = time.monotonic()
         entries = tuple(Entry(int(number), text) for number, text in (row.split(b" ", 1) for row in rows))
