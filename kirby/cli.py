@@ -10,10 +10,10 @@ import sys
 from pathlib import Path
 from typing import Annotated, Any
 
-import click
 import typer
 
 from .errors import KirbyError, UsageError
+from .view_options import DEFAULT_PORT, LOOPBACK, ViewOptions
 
 app = typer.Typer(
     name="kirby",
@@ -23,6 +23,9 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     add_completion=False,
 )
+
+# Typer carries a click of its own, and of its exceptions exports this one's subclass alone.
+_WrongUse: Any = typer.BadParameter.__base__
 
 WorldOption = Annotated[
     str | None, typer.Option("--world", metavar="NAME|FILE", help="A world by name, or a YAML file of your own.")
@@ -39,6 +42,11 @@ StateOption = Annotated[
 ]
 SeedOption = Annotated[int | None, typer.Option("--seed", help="Seed of the simulated noise (the world's).")]
 NamespaceOption = Annotated[str, typer.Option("--namespace", help="Prefix of every key, one for each robot.")]
+ViewOption = Annotated[bool, typer.Option("--view", help="Show the world in a browser as well.")]
+HostOption = Annotated[
+    str, typer.Option("--host", help="Where the view listens; beyond this machine it asks for a token.")
+]
+PortOption = Annotated[int, typer.Option("--port", min=0, max=65535, help="The view's port; 0 takes a free one.")]
 
 
 @app.callback(invoke_without_command=True, epilog="Example: kirby --world figure3")
@@ -50,9 +58,12 @@ def _main(
     state: StateOption = None,
     seed: SeedOption = None,
     namespace: NamespaceOption = "",
+    view: ViewOption = False,
+    host: HostOption = LOOPBACK,
+    port: PortOption = DEFAULT_PORT,
 ) -> None:
     if context.invoked_subcommand is None:
-        repl(world, redis, speed, state, seed, namespace)
+        repl(world, redis, speed, state, seed, namespace, view, host, port)
 
 
 @app.command(epilog="Example: printf 'go forward\\nturn left\\n' | kirby repl --world figure3")
@@ -63,12 +74,33 @@ def repl(
     state: StateOption = None,
     seed: SeedOption = None,
     namespace: NamespaceOption = "",
+    view: ViewOption = False,
+    host: HostOption = LOOPBACK,
+    port: PortOption = DEFAULT_PORT,
 ) -> None:
     """Talk to Kirby. Lines from a pipe are said in turn, each when the robot is idle or asks something."""
     from .session import Options, talk
 
-    options = Options(world, redis, speed, state, seed, namespace)
+    shown = ViewOptions(host, port) if view else None
+    options = Options(world, redis, speed, state, seed, namespace, shown)
     raise typer.Exit(0 if talk(options) else 1)
+
+
+@app.command(epilog="Example: kirby view --world figure3")
+def view(
+    world: WorldOption = None,
+    redis: RedisOption = None,
+    speed: SpeedOption = None,
+    state: StateOption = None,
+    seed: SeedOption = None,
+    namespace: NamespaceOption = "",
+    host: HostOption = LOOPBACK,
+    port: PortOption = DEFAULT_PORT,
+) -> None:
+    """Show the 3-D world in a browser, to see, point in and talk through; Ctrl-C ends it."""
+    from .session import Options, run_view
+
+    run_view(Options(world, redis, speed, state, seed, namespace, ViewOptions(host, port)))
 
 
 @app.command(epilog="Example: kirby parse --json turn left forty five degrees")
@@ -145,13 +177,10 @@ def main(arguments: list[str] | None = None) -> None:
     try:
         check_rooms()
         status: Any = app(args=arguments, prog_name="kirby", standalone_mode=False)
-    except click.exceptions.NoArgsIsHelpError as error:
-        error.show()
-        status = 2
-    except click.UsageError as error:
+    except _WrongUse as error:
         where = error.ctx.command_path if error.ctx else "kirby"
         status = _fail(f"{error.format_message()} (see {where} --help)", 2)
-    except (click.Abort, KeyboardInterrupt):
+    except (typer.Abort, KeyboardInterrupt):
         status = 130
     except BrokenPipeError:
         sys.stderr.close()  # the reader left; there is no one to tell

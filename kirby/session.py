@@ -25,10 +25,11 @@ from robot.state_folder import StateFolder
 from voxml.vocabulary import load_lexicon
 
 from .agent import Agent
-from .conversation import Conversation, Line
+from .conversation import Conversation, Line, Speaker
 from .errors import KirbyError, UsageError
 from .link import RobotLink
 from .transcript import Transcript
+from .view_options import ViewOptions
 from .worlds import DEFAULT_WORLD, find_world, world_file
 
 START_PATIENCE_S = 60.0
@@ -44,14 +45,19 @@ class Options:
     state: Path | None = None
     seed: int | None = None
     namespace: str = ""
+    view: ViewOptions | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Backstage:
-    """What a talk needs behind it: a Redis, the folder for what outlives the talk, and the robot if it is ours."""
+    """What a talk needs behind it: a Redis and the link to it, the folder for what outlives the talk, and the robot if
+
+    it is ours.
+    """
 
     url: str
     folder: Path
+    link: RobotLink
     robot: process.RobotProcess | None
 
 
@@ -65,12 +71,46 @@ def talk(options: Options) -> bool:
     show = _terminal_line if typed else _plain_line
     with ExitStack() as stack:
         backstage, conversation = stack.enter_context(_conversation(options, show, "1" if typed else "max"))
+        stack.enter_context(_shown(options.view, backstage, conversation, show))
         if typed:
             from .repl import Repl
 
             Repl(conversation, load_lexicon().words(), backstage.folder / "history").run()
             return True
         return Transcript(conversation, show).run(sys.stdin)
+
+
+def run_view(options: Options) -> None:
+    """Show the world and talk in it alone, until told to end.
+
+    Raises:
+        KirbyError: as :func:`talk`; the view's address cannot be had.
+    """
+    from .view import serve
+
+    stopping = threading.Event()
+    with ExitStack() as stack:
+        backstage, conversation = stack.enter_context(_conversation(options, _error_line, "1"))
+        stack.enter_context(_shown(options.view, backstage, conversation, _error_line))
+        process.stop_on_signals(stopping)
+        serve(conversation, stopping)
+
+
+@contextmanager
+def _shown(
+    view: ViewOptions | None, backstage: Backstage, conversation: Conversation, show: Callable[[Line], None]
+) -> Iterator[None]:
+    """The conversation with a view beside it, if one was asked for."""
+    if view is None:
+        yield
+        return
+    from .view import showing
+
+    def overheard(who: str, text: str) -> None:
+        show(Line(Speaker.SYSTEM, f"{who}: {text}"))
+
+    with showing(view, conversation, backstage.link.send, overheard):
+        yield
 
 
 def run_robot(options: Options) -> None:
@@ -109,10 +149,8 @@ def _conversation(
             stack.enter_context(closing(robot))
             robot.start()
         elif not link.alive():
-            raise KirbyError(
-                f"no robot is alive at {masked(url)}: start one (kirby robot --redis URL) or give --world"
-            )
-        backstage = Backstage(url, folder, robot)
+            raise KirbyError(f"no robot is alive at {masked(url)}: start one (kirby robot --redis URL) or give --world")
+        backstage = Backstage(url, folder, link, robot)
         _wake(conversation, backstage)
         yield backstage, conversation
 
@@ -145,6 +183,10 @@ def _speed(text: str) -> None:
 
 def _plain_line(line: Line) -> None:
     print(f"{line.speaker.value}: {line.text}", flush=True)
+
+
+def _error_line(line: Line) -> None:
+    print(f"{line.speaker.value}: {line.text}", file=sys.stderr, flush=True)
 
 
 def _terminal_line(line: Line) -> None:

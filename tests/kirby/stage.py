@@ -77,18 +77,21 @@ def stage(folder: Path, world: str, *, start: Pose | None = None, seed: int | No
     """Everything set up, and the robot has looked around."""
     folder.mkdir(exist_ok=True)
     scene = find_world(world)
-    with RedisServer(folder) as server, closing(PybulletBody(scene, start=start, seed=seed)) as body:
-        with closing(Bridge(server.url)) as bridge, closing(RobotLink(server.url)) as link:
-            robot = Robot(body, bridge, boot=bridge.open(), markers=Markers(body.camera, scene.marker_size_m))
-            lines: list[Line] = []
-            conversation = Conversation(Agent(world=scene), link.send, lines.append)
-            link.start(conversation.deliver)
-            robot.settle(LOOK_S)
+    with (
+        RedisServer(folder) as server,
+        closing(PybulletBody(scene, start=start, seed=seed)) as body,
+        closing(Bridge(server.url)) as bridge,
+        closing(RobotLink(server.url)) as link,
+    ):
+        robot = Robot(body, bridge, boot=bridge.open(), markers=Markers(body.camera, scene.marker_size_m))
+        lines: list[Line] = []
+        conversation = Conversation(Agent(world=scene), link.send, lines.append)
+        link.start(conversation.deliver)
+        robot.settle(LOOK_S)
+        robot.attend()
+        made = Stage(scene, body, robot, conversation, lines)
+        while conversation.agent.pose is None or not conversation.agent.session.world.entities:
             robot.attend()
-            made = Stage(scene, body, robot, conversation, lines)
-            while conversation.agent.pose is None or not conversation.agent.session.world.entities:
-                robot.attend()
-                conversation.step(0.05)
-            made.settle()
-            yield made
-
+            conversation.step(0.05)
+        made.settle()
+        yield made

@@ -13,7 +13,12 @@ COMMANDS = sorted(typer.main.get_command(app).commands)
 
 def kirby(*arguments: str, said: str = "") -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "kirby", *arguments], input=said, capture_output=True, text=True, timeout=120, check=False
+        [sys.executable, "-m", "kirby", *arguments],
+        input=said,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
     )
 
 
