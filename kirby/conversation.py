@@ -18,6 +18,9 @@ from .link import Found, Garbled, LinkEvent, Lost
 
 TICK_S = 0.5
 
+Happening = Event | LinkEvent
+Watcher = Callable[[Happening, tuple[Output, ...]], None]
+
 
 class Speaker(Enum):
     """Who a line of the transcript comes from."""
@@ -54,9 +57,10 @@ class Conversation:
         self.lost: Lost | None = None
         self._send = send
         self._show = show
-        self._inbox: queue.SimpleQueue[Event | LinkEvent] = queue.SimpleQueue()
+        self._watchers: tuple[Watcher, ...] = ()
+        self._inbox: queue.SimpleQueue[Happening] = queue.SimpleQueue()
 
-    def deliver(self, item: Event | LinkEvent) -> None:
+    def deliver(self, item: Happening) -> None:
         """Queue an event for the next step."""
         self._inbox.put(item)
 
@@ -65,32 +69,49 @@ class Conversation:
         """True while delivered events wait to be handled."""
         return not self._inbox.empty()
 
-    def step(self, timeout_s: float = TICK_S) -> tuple[Event | LinkEvent, tuple[Output, ...]]:
+    def watch(self, watcher: Watcher) -> None:
+        """Tell ``watcher`` of everything that happens, after it has: what came in, and what came of it."""
+        self._watchers = (*self._watchers, watcher)
+
+    def unwatch(self, watcher: Watcher) -> None:
+        """Tell ``watcher`` no more."""
+        self._watchers = tuple(other for other in self._watchers if other != watcher)
+
+    def step(self, timeout_s: float = TICK_S) -> tuple[Happening, tuple[Output, ...]]:
         """Handle the next event, or a tick when none comes in time; returns it with what came of it."""
         try:
             item = self._inbox.get(timeout=timeout_s)
         except queue.Empty:
             item = Tick(self.clock())
         match item:
+            case Lost() | Found() | Garbled():
+                self._hear_link(item)
+                self._tell(item, ())
+                return item, ()
+        return item, self.handle(item)
+
+    def _hear_link(self, item: Lost | Found | Garbled) -> None:
+        match item:
             case Lost(reason):
                 self.lost = item
                 self._show(Line(Speaker.SYSTEM, reason))
-                return item, ()
             case Found():
                 self.lost = None
                 self._show(Line(Speaker.SYSTEM, "the robot is back"))
-                return item, ()
             case Garbled(reason):
                 self._show(Line(Speaker.SYSTEM, f"passed over what the robot sent: {reason}"))
-                return item, ()
-        return item, self.handle(item)
 
     def handle(self, event: Event) -> tuple[Output, ...]:
         """One event through the agent, and its outputs out into the world."""
         outputs = self.agent.handle(event)
         for output in outputs:
             self._carry_out(output)
+        self._tell(event, outputs)
         return outputs
+
+    def _tell(self, happening: Happening, outputs: tuple[Output, ...]) -> None:
+        for watcher in self._watchers:
+            watcher(happening, outputs)
 
     def _carry_out(self, output: Output) -> None:
         match output:
