@@ -65,7 +65,8 @@ def read_boot(boot: Boot) -> Record | None:
     except Malformed as error:
         log.warning("%s", error)
         return None
-    return record if boot.unhandled or record.queue.goals or record.queue.mode is not Mode.READY else None
+    queue = record.queue
+    return record if boot.unhandled or queue.goals or queue.pictures or queue.mode is not Mode.READY else None
 
 
 class Robot:
@@ -94,7 +95,6 @@ class Robot:
         self.mapper = Mapper()
         self._markers = markers
         self._pictures = pictures
-        self._clock = clock
         self._navigator = Navigator(body.limits)
         boot = boot or port.open()
         record = read_boot(boot)

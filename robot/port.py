@@ -19,9 +19,9 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Boot:
-    """What was left from before: the robot's record, whether more entries were taken than it knows of, and the number
+    """What was left from before: the robot's record, and whether more entries were taken than it knows of.
 
-    up to which entries were sent before this robot was up.
+    Entries numbered up to ``admitted`` were sent before this robot was up.
     """
 
     record: bytes | None = None
@@ -31,9 +31,9 @@ class Boot:
 
 @dataclass(frozen=True, slots=True)
 class News:
-    """What the robot has to say. ``feedback``, ``ended`` (entry numbers) and ``record`` take effect together or not at
+    """What the robot has to say; None means unchanged.
 
-    all; of the rest, None means unchanged.
+    ``feedback``, ``ended`` (entry numbers) and ``record`` take effect together or not at all.
     """
 
     feedback: tuple[Feedback, ...] = ()
