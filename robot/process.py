@@ -76,7 +76,8 @@ class RobotProcess:
     def __init__(self, options: RobotOptions) -> None:
         require_linux()
         self._log = options.state / "robot.log"
-        command = [sys.executable, "-m", "robot.process", *_arguments(options)]
+        # -P: the folder Kirby was started in may hold a package called robot, and it is not ours.
+        command = [sys.executable, "-P", "-m", "robot.process", *_arguments(options)]
         # The URL may hold a password: everybody may read a command line, but not an environment.
         self._child = Child(command, self._log, environment={REDIS_VARIABLE: options.redis_url})
 

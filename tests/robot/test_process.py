@@ -104,3 +104,19 @@ def test_a_signal_ends_it_cleanly_and_its_work_waits(server, world, tmp_path, si
             assert robot.wait(20) == 0
         assert codes(client) == ["READY", "FORWARD", "PAUSED"]
         assert client.llen("Kirby_Queue") == 1
+
+
+@pytest.mark.physics
+def test_a_package_called_robot_in_the_current_folder_does_no_harm(server, world, tmp_path, monkeypatch):
+    (tmp_path / "robot").mkdir()
+    (tmp_path / "robot" / "__init__.py").write_text("raise SystemExit('not ours')")
+    monkeypatch.chdir(tmp_path)
+    with redis.Redis.from_url(server.url) as client:
+        client.flushall()
+        process = RobotProcess(RobotOptions(server.url, world, tmp_path, speed="max"))
+        process.start()
+        try:
+            wait_until(client, lambda told: told == ["READY"] or process.failure)
+            assert process.failure is None
+        finally:
+            process.close()
