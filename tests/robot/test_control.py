@@ -2,6 +2,8 @@
 
 import json
 import math
+import os
+import signal
 import threading
 
 import numpy as np
@@ -447,3 +449,23 @@ def test_redis_may_die_and_come_back_while_the_robot_drives(server, run_robot, c
         threading.Event().wait(0.01)
     assert told == ["READY", "FORWARD", "SUCCESS_FORWARD", "READY"]
     assert near(robot.body.pose, 2.0, 0.0)
+
+
+def test_a_redis_that_hangs_stops_the_wheels_until_it_goes_on(server, run_robot, client):
+    robot = run_robot(speed=1.0)
+    client.until("READY")
+    client.push("go forward 2")
+    client.until("FORWARD")
+    while robot.body.pose.x_m < 0.05:
+        threading.Event().wait(0.005)
+    os.kill(server.pid, signal.SIGSTOP)
+    try:
+        while not robot.held:
+            threading.Event().wait(0.005)
+        assert robot.body._target == (0.0, 0.0)
+    finally:
+        os.kill(server.pid, signal.SIGCONT)
+    while robot.held:
+        threading.Event().wait(0.005)
+    client.push("cancel all")
+    assert client.until("READY") == ["CANCELLED_ALL", "READY"]
