@@ -17,7 +17,7 @@ CONFIRMED_SIGHTINGS = 3
 # From one place the same noise is seen again and again: walls learn only from new viewpoints, or once in a while.
 LEARN_EVERY_M = 0.1
 LEARN_EVERY_RAD = math.radians(6.0)
-LEARN_EVERY_S = 1.0
+LEARN_EVERY_S = 0.5
 PRUNE_EVERY_S = 1.0
 SETTLED_M = 0.01  # a published wall moves only by more than this
 

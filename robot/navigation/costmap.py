@@ -23,6 +23,8 @@ NEAR_FALLOFF_M = 0.1
 UNKNOWN_COST = 0.6
 ESCAPE_COST = 20.0
 ESCAPE_RADIUS_M = 0.4
+FAR_M = 30.0  # a place farther than this from all that is known is left off the map
+SAMPLES_MAX = 4_000
 BORDER_M = 1.2  # of unknown space around everything known, so that the outside can be tried
 
 
@@ -51,26 +53,56 @@ class Costmap:
         """The centre of a cell."""
         return Point(self.left_m + (column + 0.5) * self.resolution_m, self.bottom_m + (row + 0.5) * self.resolution_m)
 
+    def holds(self, place: Point) -> bool:
+        """Whether ``place`` is on the map."""
+        row, column = self.cell_of(place)
+        rows, columns = self.costs.shape
+        return bool(0 <= row < rows and 0 <= column < columns)
+
+    def edge_towards(self, start: Point, goal: Point) -> Point:
+        """Where the straight line from ``start``, on the map, to ``goal``, off it, leaves the map: a cell inside."""
+        rows, columns = self.costs.shape
+        shares = [1.0]
+        for here, there, first, count in (
+            (start.x_m, goal.x_m, self.left_m, columns),
+            (start.y_m, goal.y_m, self.bottom_m, rows),
+        ):
+            edge = first + self.resolution_m * (count - 1 if there > here else 1)
+            if there != here:
+                shares.append(max((edge - here) / (there - here), 0.0))
+        return start.moved(min(shares) * start.distance_to(goal), start.bearing_to(goal))
+
     def is_free(self, place: Point) -> bool:
         """Whether the robot's centre may be at ``place``."""
         return bool(self.costs[self.cell_of(place)] >= 0.0)
 
     def line_cost(self, start: Point, end: Point) -> float:
-        """The cost of the straight way, in metres of free space; inf when it crosses forbidden cells."""
+        """The cost of the straight way, in metres of free space; inf when it crosses forbidden cells.
+
+        Beyond its edges the map goes on as it is there.
+        """
         length_m = start.distance_to(end)
-        count = max(2, math.ceil(length_m / self.resolution_m * 2.0) + 1)
+        count = min(max(2, math.ceil(length_m / self.resolution_m * 2.0) + 1), SAMPLES_MAX)
         along = np.linspace(0.0, 1.0, count)
         columns = (start.x_m - self.left_m + along * (end.x_m - start.x_m)) / self.resolution_m
         rows = (start.y_m - self.bottom_m + along * (end.y_m - start.y_m)) / self.resolution_m
+        rows = np.clip(rows, 0, self.costs.shape[0] - 1)
+        columns = np.clip(columns, 0, self.costs.shape[1] - 1)
         costs = self.costs[rows.astype(np.intp), columns.astype(np.intp)]
         return math.inf if float(costs.min()) < 0.0 else float(costs.mean()) * length_m
 
 
 def build_costmap(grid: OccupancyGrid, start: Point, places: tuple[Point, ...], radius_m: float) -> Costmap:
-    """The costmap over all that is known and all of ``places``, for a robot of ``radius_m`` standing at ``start``."""
-    window = grid.window
-    for place in (start, *places):
-        window = window.union(grid.window_around(place, 0.0))
+    """The costmap over all that is known and those of ``places`` that are not far from it.
+
+    The robot, of ``radius_m``, stands at ``start``.
+    """
+    window = grid.window.union(grid.window_around(start, 0.0))
+    farthest = window.grown(math.ceil(FAR_M / grid.resolution_m))
+    for place in places:
+        cell = grid.window_around(place, 0.0)
+        if farthest.holds(cell):
+            window = window.union(cell)
     window = window.grown(math.ceil(BORDER_M / grid.resolution_m))
     cells = grid.cells(window)
     distances_m = _distances(cells > OCCUPIED_LOG_ODDS, grid.resolution_m)

@@ -11,7 +11,7 @@ from skimage.graph import MCP_Geometric
 
 from robot.geometry import Point
 
-from .costmap import FORBIDDEN, Costmap
+from .costmap import FORBIDDEN, UNKNOWN_COST, Costmap
 from .goals import Reason
 
 GOAL_TOLERANCE_M = 0.3  # how far a goal inside an obstacle may be moved
@@ -38,6 +38,8 @@ class Plan:
 def plan(costmap: Costmap, start: Point, goal: Point) -> Plan | Reason:
     """The cheapest way, or why there is none even through unknown space."""
     search = _Search(costmap, start)
+    if not costmap.holds(goal):
+        return search.plan_beyond(goal) or Reason.CUT_OFF
     if costmap.is_free(goal):
         return search.plan(goal) or Reason.CUT_OFF
     place = search.stand_in(goal)
@@ -73,6 +75,14 @@ class _Search:
         places = [self._start, *(place for place, _ in between), goal]
         path = _shortened(self._costmap, places, [0.0, *(cost for _, cost in between), along[-1]])
         return Plan(_taut(self._costmap, path), along[-1])
+
+    def plan_beyond(self, goal: Point) -> Plan | None:
+        """A way to a place off the map: to the map's edge in its direction, and straight on."""
+        edge = self._costmap.edge_towards(self._start, goal)
+        found = self.plan(edge)
+        if found is None:
+            return None
+        return Plan((*found.path, goal), found.cost_m + edge.distance_to(goal) * (1.0 + UNKNOWN_COST))
 
     def stand_in(self, goal: Point) -> Point | None:
         """The reachable place nearest to ``goal``, within the tolerance; of equals the first in row order."""

@@ -215,6 +215,5 @@ class Reaching:
         return view.surroundings.clearance_m(view.pose)
 
     def _drive(self, twist: Twist, view: View) -> Drive:
-        """The command, no faster than what the laser sees lets the robot stop."""
         path = self._follower.rest(view.pose) if self._follower is not None else ()
         return Drive(twist.linear_mps, twist.angular_radps, State.ACTIVE, Phase.FOLLOW, path, None, self._moved_to)

@@ -9,7 +9,7 @@ import pytest
 from kinematic_body import TYPICAL, WAFFLE_PI, KinematicBody, box, polygon
 from pilot import Pilot, offset
 
-from robot.geometry import Point, Pose, wrap_angle
+from robot.geometry import Point, Pose, Segment, wrap_angle
 from robot.mapping import OccupancyGrid
 from robot.navigation import Drive, Navigator, Phase, Plan, Reach, Reason, State, build_costmap, plan
 
@@ -17,7 +17,7 @@ CORRIDOR = polygon((-1, -1), (8, -1), (8, 1), (3.9, 1), (3.9, 3), (3, 3), (3, 1)
 CLUTTERED = CORRIDOR + box(2, -0.6, 0.3, 0.3) + box(5, 0.7, 0.3, 0.3) + box(6.5, 0, 0.4, 0.4)
 
 
-def rooms(open_door: bool) -> tuple:
+def rooms(open_door: bool) -> tuple[Segment, ...]:
     """A corridor with a side room and, beyond a barrier, the place that is wanted. From the corridor the side room's
     inside cannot be seen; a second door may lead from it on to the other side."""
     outline = polygon((-1, -1), (8, -1), (8, 4), (-1, 4))
@@ -90,6 +90,27 @@ def test_a_place_outside_the_known_walls_fails_promptly_without_driving() -> Non
     assert pilot.body.time_s < 3.0
 
 
+def test_a_place_at_the_end_of_the_world_costs_no_more_planning_than_its_known_part() -> None:
+    body = KinematicBody(CORRIDOR)
+    pilot = Pilot(body)
+    start, goal = Point(0, 0), Point(900, -900)
+    costmap = build_costmap(pilot.mapper.grid, start, (goal,), 0.22)
+    assert costmap.costs.size < 100_000
+    found = plan(costmap, start, goal)
+    assert isinstance(found, Plan)
+    assert found.path[-1] == goal
+    drive = pilot.pursue(Reach(goal))
+    assert (drive.state, drive.reason) == (State.FAILED, Reason.CUT_OFF)
+    assert body.contacts == 0
+
+
+@pytest.mark.parametrize("start", [Pose(0, -0.77, 0), Pose(-0.78, -0.78, -2.3)])
+def test_a_robot_that_stands_too_near_to_a_wall_drives_off_it(start: Pose) -> None:
+    body = KinematicBody(CORRIDOR, start)
+    assert Pilot(body).pursue(Reach(Point(2, 0))).state is State.ARRIVED
+    assert body.contacts == 0
+
+
 def test_a_side_room_that_turns_out_closed_is_explored_before_giving_up() -> None:
     body = KinematicBody(rooms(open_door=False))
     pilot = Pilot(body)
@@ -101,7 +122,7 @@ def test_a_side_room_that_turns_out_closed_is_explored_before_giving_up() -> Non
 
 
 def test_the_same_way_is_taken_when_the_side_room_leads_on() -> None:
-    body = KinematicBody(rooms(open_door=True)[:-4] + polygon((5.6, 1.05), (5.6, 1.06), (8, 1.06), (8, 1.05))[:0])
+    body = KinematicBody(rooms(open_door=True))
     drive = Pilot(body).pursue(Reach(Point(6.5, 2.5)))
     assert drive.state is State.ARRIVED
     assert body.contacts == 0
