@@ -47,11 +47,19 @@ class Behind(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Address:
-    """Where to listen. ``token`` is what every browser must present; None, for loopback addresses alone, asks none."""
+    """Where to listen. ``token`` is what every browser must present.
+
+    Raises:
+        ValueError: other machines reach the host, and there is no token.
+    """
 
     host: str = "127.0.0.1"
     port: int = 8080
     token: str | None = None
+
+    def __post_init__(self) -> None:
+        if not self.loopback and not self.token:
+            raise ValueError(f"{self.host} can be reached from other machines: a token is needed")
 
     @property
     def loopback(self) -> bool:
@@ -92,8 +100,6 @@ class Front:
     """An authenticating reverse proxy in a thread of its own."""
 
     def __init__(self, address: Address, inner: tuple[str, int], behind: Behind) -> None:
-        if not address.loopback and not address.token:
-            raise ValueError(f"{address.host} can be reached from other machines: a token is needed")
         self._address = address
         self._inner = f"http://{inner[0]}:{inner[1]}"
         self._behind = behind
@@ -228,6 +234,6 @@ def _equal(offered: str, token: str) -> bool:
 
 def _admit(request: web.Request, token: str) -> web.StreamResponse:
     """Take the token out of the address bar and into a cookie that no script can read."""
-    answer = web.HTTPSeeOther(request.path)
+    answer = web.Response(status=303, headers={"Location": request.path})
     answer.set_cookie(COOKIE, token, httponly=True, samesite="Strict")
     return answer

@@ -90,7 +90,7 @@ class Person:
 
 def fit_name(text: str, taken: set[str]) -> str:
     """A name of one line that nobody else has."""
-    wanted = " ".join(text.split())[:NAME_MAX] or "Guest"
+    wanted = " ".join(text.split())[:NAME_MAX].strip() or "Guest"
     name, number = wanted, 2
     while name in taken:
         name, number = f"{wanted} {number}", number + 1

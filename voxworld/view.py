@@ -76,11 +76,7 @@ class VoxWorld:
     """The shared world behind one address. Every method may be called from any thread."""
 
     def __init__(self, host: Host, heads: Heads, address: Address) -> None:
-        """``heads``: the VoxML head of each type of thing.
-
-        Raises:
-            ValueError: an address that other machines reach, without a token.
-        """
+        """``heads``: the VoxML head of each type of thing."""
         self._host, self._heads = host, heads
         self._lock = threading.RLock()
         self._shared = Shared()
@@ -183,10 +179,15 @@ class VoxWorld:
             self._move(person, panel, move)
 
     @property
+    def people(self) -> tuple[Person, ...]:
+        """Who is here, in the order in which they came."""
+        with self._lock:
+            return tuple(person for person, _ in self._people.values())
+
+    @property
     def watching(self) -> bool:
         """Whether somebody would see the robot's picture."""
-        with self._lock:
-            return any(person.viewpoint.watching for person, _ in self._people.values())
+        return any(person.viewpoint.watching for person in self.people)
 
     # ------------------------------------------------------------------ asked by the front
     def stop(self, who: str) -> str:
