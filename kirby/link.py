@@ -69,7 +69,7 @@ class RobotLink:
 
     def __init__(self, url: str, namespace: str = "", clock: Callable[[], float] = time.monotonic) -> None:
         """No traffic yet. Raises KirbyError when ``url`` is not a Redis URL."""
-        self._url = url
+        self.url, self.namespace = url, namespace
         try:
             self._client = connect(url)
         except ValueError as error:
@@ -92,7 +92,7 @@ class RobotLink:
         try:
             newest: Any = self._client.xrevrange(self._keys.feedback_stream, count=1)
         except redis.RedisError as error:
-            raise KirbyError(f"no Redis answers at {masked(self._url)} ({error}): check --redis") from None
+            raise KirbyError(f"no Redis answers at {masked(self.url)} ({error}): check --redis") from None
         if newest:
             self._cursor = newest[0][0]
         self._deliver = deliver

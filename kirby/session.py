@@ -109,7 +109,7 @@ def _shown(
     def overheard(who: str, text: str) -> None:
         show(Line(Speaker.SYSTEM, f"{who}: {text}"))
 
-    with showing(view, conversation, backstage.link.send, overheard):
+    with showing(view, conversation, backstage.link, overheard):
         yield
 
 

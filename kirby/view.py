@@ -7,7 +7,7 @@ import sys
 import threading
 import uuid
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import replace
 
 import redis
@@ -22,7 +22,8 @@ from voxworld.view import Said, VoxWorld
 
 from .conversation import Conversation, Happening
 from .errors import UsageError
-from .link import Found, Garbled, Lost
+from .link import Found, Garbled, Lost, RobotLink
+from .outlook import Outlook
 from .view_options import ViewOptions
 
 TERMINAL = "terminal"
@@ -161,20 +162,28 @@ def heads(lexicon: Lexicon) -> dict[str, str]:
 
 @contextmanager
 def showing(
-    options: ViewOptions,
-    conversation: Conversation,
-    send: Callable[[Dispatch], None],
-    overheard: Callable[[str, str], None],
+    options: ViewOptions, conversation: Conversation, link: RobotLink, overheard: Callable[[str, str], None]
 ) -> Iterator[View]:
-    """The view while the conversation lasts, and its one address on standard error."""
+    """The view while the conversation lasts, and its one address on standard error.
+
+    Raises:
+        UsageError: as :meth:`View.open`.
+    """
     address = Address(options.host, options.port, options.token_for(is_loopback(options.host)))
-    view = View(conversation, send, address, load_lexicon(), overheard)
-    try:
+    with closing(View(conversation, link.send, address, load_lexicon(), overheard)) as view:
         view.open()
         print(f"the world is at {view.world.url}", file=sys.stderr, flush=True)
-        yield view
-    finally:
-        view.close()
+        world = view.world
+        outlook = Outlook(
+            link.url,
+            link.namespace,
+            watching=lambda: world.watching,
+            show_path=world.show_path,
+            show_image=world.show_image,
+        )
+        with closing(outlook):
+            outlook.start()
+            yield view
 
 
 def serve(conversation: Conversation, stopping: threading.Event) -> None:

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from .body import Body, Image, Scan
 from .entries import read_entry
-from .geometry import Pose
+from .geometry import Point, Pose
 from .localisation import Localiser
 from .mapping import Mapper
 from .messages import Feedback, Malformed
@@ -47,6 +47,7 @@ from .queue import (
 )
 from .record import Record, record_from_json, record_to_json
 from .sightings import Markers
+from .window import Window
 
 PERIOD_S = 0.05
 WATCHDOG_S = 1.0  # wheels stop when the port has been silent for so long
@@ -77,6 +78,7 @@ class Robot:
         port: opened already if ``boot`` is given.
         markers: finds fiducials in images; without it none are reported.
         pictures: folder for ``take picture``; without it pictures fail.
+        window: is left the planned path and every image, for people to look at.
         clock: the wall's, in seconds, for signs of life alone.
     """
 
@@ -88,6 +90,7 @@ class Robot:
         boot: Boot | None = None,
         markers: Markers | None = None,
         pictures: Path | None = None,
+        window: Window | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.body = body
@@ -95,6 +98,7 @@ class Robot:
         self.mapper = Mapper()
         self._markers = markers
         self._pictures = pictures
+        self._window = window
         self._navigator = Navigator(body.limits)
         boot = boot or port.open()
         record = read_boot(boot)
@@ -192,9 +196,11 @@ class Robot:
     def _drive(self) -> None:
         if self._target is None or self._held:
             self.body.drive(0.0, 0.0)
+            self._show_path(())
             return
         drive = self._navigator.step(self.pose, self._scan, self.mapper.grid, self.body.time_s)
         self.body.drive(drive.linear_mps, drive.angular_radps)
+        self._show_path(drive.path)
         turned = isinstance(self._target, Rotate) and drive.phase is not self._phase
         self._phase = drive.phase
         if turned and drive.phase is Phase.VERIFY_ROTATION:
@@ -202,6 +208,10 @@ class Robot:
         if drive.state is not State.ACTIVE:
             self._target = None
             self._feed(Arrived() if drive.state is State.ARRIVED else Failed())
+
+    def _show_path(self, path: tuple[Point, ...]) -> None:
+        if self._window is not None:
+            self._window.show_path(path)
 
     def _feed(self, event: Event, turned_rad: float | None = None) -> None:
         here = Here(self.pose, self._turned_rad() if turned_rad is None else turned_rad)
@@ -245,6 +255,8 @@ class Robot:
             self._look(image)
 
     def _look(self, image: Image) -> None:
+        if self._window is not None:
+            self._window.show_image(image)
         if self._markers is not None:
             self._markers.see(image, self._localiser.pose_at(image.time_s))
         for entry in [entry for entry, since_s in self._photos.items() if image.time_s >= since_s]:

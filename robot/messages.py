@@ -449,6 +449,13 @@ class Status:
     errors: tuple[str, ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class PlannedPath:
+    """The way that the robot means to drive from where it is; empty when it means to drive nowhere."""
+
+    points: tuple[Point, ...] = ()
+
+
 def _round3(values: tuple[float, ...]) -> list[float]:
     return [round(v, 3) for v in values]
 
@@ -572,6 +579,17 @@ def decode_status(text: str | bytes) -> Status:
     return Status(_text(data, "time"), _text(data, "status"), _text(data, "cpu"), tuple(errors))
 
 
+def encode_path(path: PlannedPath) -> str:
+    """JSON ``{"data": [[x, y], ...]}``, rounded to three decimals."""
+    return json.dumps({"data": [_round3((point.x_m, point.y_m)) for point in path.points]})
+
+
+def decode_path(text: str | bytes) -> PlannedPath:
+    """Raises Malformed on anything that is not of the contract."""
+    rows = [_numbers(row, 2, "data row") for row in _list(decode_object(text), "data")]
+    return PlannedPath(tuple(Point(x_m, y_m) for x_m, y_m in rows))
+
+
 # ------------------------------------------------------------------ keys
 @dataclass(frozen=True, slots=True)
 class Keys:
@@ -622,6 +640,21 @@ class Keys:
     @property
     def status(self) -> str:
         return self._key("Status")
+
+    @property
+    def path(self) -> str:
+        """The planned path, while there is one (+)."""
+        return self._key("Path")
+
+    @property
+    def camera(self) -> str:
+        """The camera's picture as JPEG, while `camera_watch` is set (+)."""
+        return self._key("Camera")
+
+    @property
+    def camera_watch(self) -> str:
+        """Set, with an expiry, by whoever looks at the picture (+)."""
+        return self._key("Camera_Watch")
 
 
 MAP_HISTORY = 7

@@ -9,6 +9,7 @@ import signal
 import sys
 import threading
 from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -48,6 +49,7 @@ def run_robot(options: RobotOptions, stopping: threading.Event | None = None) ->
     """
     from .pybullet_body import PybulletBody  # a second to import: only where it is simulated
     from .sightings import Markers
+    from .window import RedisWindow
 
     speed = parse_speed(options.speed)
     try:
@@ -61,9 +63,12 @@ def run_robot(options: RobotOptions, stopping: threading.Event | None = None) ->
         body = PybulletBody(scene, start=None if record is None else record.pose, seed=options.seed)
         try:
             markers = Markers(body.camera, scene.marker_size_m)
-            robot = Robot(body, bridge, boot=boot, markers=markers, pictures=options.state / "pictures")
-            run(robot, speed, stopping or threading.Event())
-            robot.rest()
+            pictures = options.state / "pictures"
+            with closing(RedisWindow(options.redis_url, options.namespace)) as window:
+                robot = Robot(body, bridge, boot=boot, markers=markers, pictures=pictures, window=window)
+                window.start()
+                run(robot, speed, stopping or threading.Event())
+                robot.rest()
         finally:
             body.close()
     finally:
