@@ -19,6 +19,6 @@ __all__ = ["run"]
 
 def run(paths: Iterable[Path] = (), lexicon: Lexicon | None = None) -> Report:
     """See `corpora.runner.run`; `corpora.reporting.report_text` puts the report into words."""
-    from .runner import run as run_corpora  # noqa: PLC0415
+    from .runner import run as run_corpora
 
     return run_corpora(paths, lexicon)

@@ -102,17 +102,17 @@ class KnownFailure:
     reason: str
 
 
-def load_corpus(path: Path) -> tuple[Case | DialogueCase, ...]:
-    """Every case of a file, in its order.
+def load_corpus(path: Path, source: str) -> tuple[Case | DialogueCase, ...]:
+    """Every case of a file, in its order; ``source`` names the file in reports and errors.
 
     Raises:
         CorpusError: the file cannot be read, or says something that this module does not know.
     """
     data = _load(path)
-    _check(data, path.name, frozenset({"world", "cases", "dialogues"}), frozenset())
+    _check(data, source, frozenset({"world", "cases", "dialogues"}), frozenset())
     setting = Setting(data.get("world"))
-    cases = [case for row, at in _rows(data, "cases", path) for case in _cases(row, at, path.name, setting)]
-    dialogues = [_dialogue(row, at, path.name, setting) for row, at in _rows(data, "dialogues", path)]
+    cases = [case for row, at in _rows(data, "cases", source) for case in _cases(row, at, source, setting)]
+    dialogues = [_dialogue(row, at, source, setting) for row, at in _rows(data, "dialogues", source)]
     return (*cases, *dialogues)
 
 
@@ -122,7 +122,7 @@ def load_known_failures(path: Path) -> tuple[KnownFailure, ...]:
     _check(data, path.name, frozenset({"known_failures"}), frozenset())
     fields = frozenset({"file", "case", "step", "reason"})
     failures = []
-    for row, at in _rows(data, "known_failures", path):
+    for row, at in _rows(data, "known_failures", path.name):
         _check(row, at, fields, fields)
         failures.append(KnownFailure(str(row["file"]), str(row["case"]), str(row["step"]), str(row["reason"])))
     return tuple(failures)
@@ -137,11 +137,11 @@ def _load(path: Path) -> Any:
         raise CorpusError(f"{path}: is not YAML: {' '.join(str(error).split())}") from None
 
 
-def _rows(data: Mapping[str, Any], name: str, path: Path) -> list[tuple[Any, str]]:
+def _rows(data: Mapping[str, Any], name: str, source: str) -> list[tuple[Any, str]]:
     rows = data.get(name) or []
     if not isinstance(rows, list):
-        raise CorpusError(f"{path.name}: '{name}' must be a list")
-    return [(row, f"{path.name}: {name}[{index}]") for index, row in enumerate(rows)]
+        raise CorpusError(f"{source}: '{name}' must be a list")
+    return [(row, f"{source}: {name}[{index}]") for index, row in enumerate(rows)]
 
 
 def _check(row: Any, at: str, allowed: frozenset[str], required: frozenset[str]) -> None:

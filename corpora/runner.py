@@ -99,7 +99,7 @@ def default_corpora() -> tuple[Path, ...]:
 
 
 def run(paths: Iterable[Path] = (), lexicon: Lexicon | None = None) -> Report:
-    """Run the corpora of these files, or Kirby's own, with the ``known_failures.yaml`` beside them.
+    """Run the corpora of these files, or Kirby's own, with the ``known_failures.yaml`` beside or just above them.
 
     Raises:
         CorpusError: a file cannot be used.
@@ -108,14 +108,21 @@ def run(paths: Iterable[Path] = (), lexicon: Lexicon | None = None) -> Report:
     words = lexicon or load_lexicon()
     results: list[Result] = []
     stale: list[KnownFailure] = []
-    for folder in dict.fromkeys(path.parent for path in chosen):
-        here = [path for path in chosen if path.parent == folder]
-        known = {(k.source, k.text): k for k in load_known_failures(folder / KNOWN_FAILURES)}
-        for case in (case for path in here for case in load_corpus(path)):
-            differences = _run_case(case, folder, words)
-            results.append(Result(case.source, case.text, differences, known.pop((case.source, case.text), None)))
-        stale += [left for left in known.values() if left.source in {path.name for path in here}]
+    for root in dict.fromkeys(map(_root, chosen)):
+        known = {(k.source, k.text): k for k in load_known_failures(root / KNOWN_FAILURES)}
+        here = {path.relative_to(root).as_posix(): path for path in chosen if _root(path) == root}
+        for source, path in here.items():
+            for case in load_corpus(path, source):
+                differences = _run_case(case, path.parent, words)
+                results.append(Result(source, case.text, differences, known.pop((source, case.text), None)))
+        stale += [left for left in known.values() if left.source in here]
     return Report(tuple(results), tuple(stale))
+
+
+def _root(path: Path) -> Path:
+    """The folder whose list of known failures a corpus answers to."""
+    folders = (path.parent, path.parent.parent)
+    return next((folder for folder in folders if (folder / KNOWN_FAILURES).exists()), path.parent)
 
 
 def _run_case(case: Case | DialogueCase, folder: Path, lexicon: Lexicon) -> tuple[Difference, ...]:
