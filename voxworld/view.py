@@ -62,7 +62,7 @@ class _Server(viser.ViserServer):
 
 
 @contextmanager
-def _silent() -> Iterator[None]:
+def silent() -> Iterator[None]:
     """viser announces its own address and end, which are no news for anybody here."""
     console = rich.get_console()
     loud, console.quiet = console.quiet, True
@@ -88,7 +88,7 @@ class VoxWorld:
         self._news = threading.Event()
         self._closed = threading.Event()
         inner = hidden_host()
-        with _silent():
+        with silent():
             self._server = _Server(host=inner, port=0, label="Kirby", verbose=False)
         self._front = Front(address, (inner, self._server.get_port()), self)
         self._stage = Stage(self._server)
@@ -121,7 +121,7 @@ class VoxWorld:
         if self._thread.is_alive():
             self._thread.join(timeout=2.0)
         self._front.close()
-        with _silent():
+        with silent():
             self._server.stop()
 
     # ------------------------------------------------------------------ told by the application
