@@ -4,15 +4,13 @@ Delivery is at least once into the robot's durable list and exactly once out of 
 ``docs/decisions/0004-delivery.md``. The script beside this file does one whole exchange atomically.
 
 The control loop calls :meth:`Bridge.exchange` itself, one round trip of well under a millisecond, rather than through a
-thread: a command is acted upon without a detour, and what was done is durable before the wheels turn. A thread of its
-own only waits where waiting is long: for something to arrive, and for a lost Redis to come back.
+thread: a command is acted upon without a detour, and what was done is durable before the wheels turn.
 """
 
 from __future__ import annotations
 
 import json
 import logging
-import threading
 import time
 import uuid
 from importlib.resources import files
@@ -20,9 +18,8 @@ from typing import Any
 from urllib.parse import urlsplit, urlunsplit
 
 import redis
-from redis.backoff import ExponentialBackoff, NoBackoff
-from redis.retry import Retry
 
+from .connections import LOST, Connections
 from .errors import RobotError
 from .messages import (
     FEEDBACK_HISTORY,
@@ -42,13 +39,14 @@ from .port import Boot, Entry, Incoming, News
 
 TAKE_MAX = 256  # entries a cycle; a stop behind them is seen all the same
 ENTRY_MAX_BYTES = 2048  # beyond any well-formed entry; the rest of a longer one is not even fetched
-# A Redis that does not answer for so long is treated as lost; well within the second after which the wheels stop.
-EXCHANGE_TIMEOUT_S = 0.25
-CONNECT_TIMEOUT_S = 5.0
-WATCH_S = 0.25
-BACKOFF_MAX_S = 1.0
-LOST = (redis.ConnectionError, redis.TimeoutError)
-
+LIMITS = {
+    "feedback_max": FEEDBACK_HISTORY,
+    "stream_max": FEEDBACK_STREAM_HISTORY,
+    "map_max": MAP_HISTORY,
+    "status_expiry": STATUS_EXPIRY_S,
+}
+NO_NEWS = json.dumps({"batches": []})
+COUNT_MAX_DIGITS = 15  # a longer number was not counted by us
 log = logging.getLogger(__name__)
 
 
@@ -72,26 +70,22 @@ class Bridge:
         self._url = url
         self._keys = Keys(namespace)
         self._token = uuid.uuid4().hex
+        keys = self._keys
+        names = [keys.commands, keys.queue, self._record, keys.feedback, keys.feedback_stream, keys.reset]
+        names += [keys.map, keys.odom, keys.fiducials, keys.lidar, keys.status]
+        self._names = (len(names), *names)
         try:
-            once = Retry(NoBackoff(), 0)
-            options: dict[str, Any] = {"socket_connect_timeout": CONNECT_TIMEOUT_S, "retry": once}
-            self._client = redis.Redis.from_url(url, socket_timeout=EXCHANGE_TIMEOUT_S, **options)
-            self._watcher = redis.Redis.from_url(url, socket_timeout=WATCH_S + CONNECT_TIMEOUT_S, **options)
+            self._connections = Connections(url, _script("bridge.lua"), self._keys.commands)
         except ValueError:
             raise RobotError(
                 f"'{masked(url)}' is not a Redis URL: use redis://, rediss:// or unix://, as in redis://localhost:6379"
             ) from None
-        self._script = self._client.register_script(files(__package__).joinpath("bridge.lua").read_text())
         self._batches: list[dict[str, Any]] = []
         self._sent = 0  # of the batches, those that Redis may have applied already
         self._batch = self._seen = self._resets = 0
         self._latest: dict[str, str] = {}
+        self._early: Incoming | None = None
         self._heard_s = time.monotonic()
-        self._reachable = threading.Event()
-        self._arrived = threading.Event()
-        self._taken = threading.Event()
-        self._closed = threading.Event()
-        self._thread = threading.Thread(target=self._watch, name="bridge-watch", daemon=True)
 
     # ------------------------------------------------------------------ Port
     def open(self) -> Boot:
@@ -100,18 +94,22 @@ class Bridge:
         Raises:
             RobotError: nothing usable answers at the URL.
         """
+        keys = self._keys
+        names = (keys.commands, keys.queue, self._record, keys.map, keys.odom, keys.fiducials, keys.lidar)
         try:
-            boot = self._open()
+            answer = self._connections.open(
+                _script("opening.lua"), (len(names), *names, self._token, ENTRY_MAX_BYTES, COUNT_MAX_DIGITS)
+            )
+        except redis.AuthenticationError as error:
+            raise RobotError(f"Redis at {masked(self._url)} refuses: {error}") from None
         except LOST:
             raise RobotError(
                 f"no Redis answers at {masked(self._url)}: start it, or give another --redis URL"
             ) from None
         except redis.RedisError as error:
             raise RobotError(f"Redis at {masked(self._url)} refuses: {error}") from None
-        self._reachable.set()
         self._heard_s = time.monotonic()
-        self._thread.start()
-        return boot
+        return self._boot(answer)
 
     def exchange(self, news: News) -> Incoming:
         """As :class:`robot.port.Port`; with Redis lost it returns at once, and everything is kept for later.
@@ -120,21 +118,38 @@ class Bridge:
             ReplacedError: another robot has taken over.
         """
         self._collect(news)
-        self._arrived.clear()
-        if not self._reachable.is_set():
+        early, self._early = self._early, None
+        if early is not None:
+            return early  # what there is to say goes with the next exchange, which follows a command at once
+        if not self._connections.up:
             return Incoming()
         try:
             answer = self._run()
         except redis.RedisError as error:
-            log.warning("Redis is lost: %s", error)
-            self._reachable.clear()
+            self._lose(error)
             return Incoming()
-        finally:
-            self._taken.set()
-        return self._read(answer)
+        incoming = self._read(answer)
+        self._batches.clear()
+        self._sent = 0
+        self._latest.clear()
+        return incoming
 
     def wait(self, timeout_s: float) -> bool:
-        return self._arrived.wait(timeout_s)
+        if not self._connections.up:
+            return self._connections.wait_until_up(timeout_s)
+        try:
+            answer = self._connections.wait(self._arguments(), timeout_s)
+        except redis.exceptions.NoScriptError:
+            return True  # the next exchange brings the script back
+        except redis.RedisError as error:
+            self._lose(error)
+            return False
+        if answer is None:
+            return False
+        incoming = self._read(answer)
+        if incoming.entries or incoming.reset:
+            self._early = incoming
+        return self._early is not None
 
     @property
     def silent_s(self) -> float:
@@ -142,33 +157,23 @@ class Bridge:
 
     def close(self) -> None:
         """Let go of Redis; the keys stay."""
-        self._closed.set()
-        self._taken.set()
-        if self._thread.is_alive():
-            self._thread.join(timeout=2 * WATCH_S)  # it may be waiting for a command: not under its feet
-        self._client.close()
-        self._watcher.close()
+        self._connections.close()
 
     # ------------------------------------------------------------------ exchanging
-    def _open(self) -> Boot:
-        keys, client = self._keys, self._watcher
-        client.lmove(f"{self._record}:none", f"{self._record}:none", "LEFT", "LEFT")  # an older Redis refuses here
-        for key, kind in ((self._record, b"hash"), (keys.queue, b"list"), (keys.commands, b"list")):
-            if client.type(key) not in (b"none", kind):
-                client.delete(key)
-        pipe = client.pipeline(transaction=True)
-        pipe.delete(keys.map, keys.odom, keys.fiducials, keys.lidar)
-        pipe.hset(self._record, "owner", self._token)
-        pipe.hgetall(self._record)
-        pipe.lindex(keys.queue, -1)
-        pipe.llen(keys.commands)
-        _, _, held, last, waiting = pipe.execute()
-        fields: dict[str, bytes] = {name.decode(errors="replace"): value for name, value in held.items()}
-        self._batch, self._seen, taken = (_whole(fields.get(name)) for name in ("batch", "handled", "seq"))
-        self._resets = _whole(fields.get("resets"))
+    def _boot(self, answer: list[Any]) -> Boot:
+        flat, queue, waiting, handled, taken = answer
+        names, values = flat[::2], flat[1::2]
+        fields = {name.decode(errors="replace"): value for name, value in zip(names, values, strict=True)}
+        self._batch, self._resets = (_whole(fields.get(name)) for name in ("batch", "resets"))
+        self._seen = handled
+        entries = [_entry(row) for row in queue]
+        left = tuple(entry for entry in entries if entry.number <= handled)
         intact = self._resets == _whole(fields.get("resets_handled"))
-        unhandled = last is not None and _whole(last.split(b" ")[0]) > self._seen
-        return Boot(fields.get("state") if intact else None, unhandled, taken + waiting)
+        return Boot(fields.get("state") if intact else None, len(left) < len(entries), taken + waiting, left)
+
+    def _lose(self, error: redis.RedisError) -> None:
+        log.warning("Redis is lost: %s", error)
+        self._connections.lose()
 
     @property
     def _record(self) -> str:
@@ -199,71 +204,39 @@ class Bridge:
             self._latest["status"] = encode_status(news.status)
 
     def _run(self) -> list[Any]:
-        keys = self._keys
-        names = [keys.commands, keys.queue, self._record, keys.feedback, keys.feedback_stream, keys.reset]
-        names += [keys.map, keys.odom, keys.fiducials, keys.lidar, keys.status]
-        limits = {
-            "feedback_max": FEEDBACK_HISTORY,
-            "stream_max": FEEDBACK_STREAM_HISTORY,
-            "map_max": MAP_HISTORY,
-            "status_expiry": STATUS_EXPIRY_S,
-        }
-        news = json.dumps({"batches": self._batches, **limits, **self._latest})
         self._sent = len(self._batches)
-        answer: list[Any] = self._script(keys=names, args=[self._token, self._seen, TAKE_MAX, ENTRY_MAX_BYTES, news])
-        return answer
+        news = json.dumps({"batches": self._batches, "issued": self._batch, **LIMITS, **self._latest})
+        return self._connections.exchange(self._arguments(news))
+
+    def _arguments(self, news: str = NO_NEWS) -> tuple[str | int, ...]:
+        return (*self._names, self._token, self._seen, TAKE_MAX, ENTRY_MAX_BYTES, news)
 
     def _read(self, answer: list[Any]) -> Incoming:
         owner, resets, hold, rows = answer
         if not owner:
             raise ReplacedError("another robot has taken over these keys: give each its own --namespace")
-        self._batches.clear()
-        self._sent = 0
-        self._latest.clear()
         self._heard_s = time.monotonic()
-        entries = tuple(Entry(int(number), text) for number, text in (row.split(b" ", 1) for row in rows))
-        if entries:
-            self._seen = entries[-1].number
+        # An answer may be to a question of before the last exchange: then some of it is known.
+        entries = tuple(entry for row in rows if (entry := _entry(row)).number > self._seen)
+        self._seen = max((entry.number for entry in entries), default=self._seen)
         reset = resets > self._resets
         self._resets = max(resets, self._resets)
         return Incoming(entries, hold > 0, reset)
 
-    # ------------------------------------------------------------------ the waiting thread
-    def _watch(self) -> None:
-        """Wake the control loop when a command arrives; notice when Redis is back."""
-        backoff, failures = ExponentialBackoff(cap=BACKOFF_MAX_S, base=0.05), 0
-        while not self._closed.is_set():
-            try:
-                found = self._watch_once()
-            except LOST:
-                failures += 1
-                self._closed.wait(backoff.compute(failures))
-                continue
-            failures = 0
-            self._reachable.set()
-            if found:
-                self._taken.clear()
-                self._arrived.set()
-                self._taken.wait(WATCH_S)
 
-    def _watch_once(self) -> bool:
-        """Whether there are commands, waiting for them up to `WATCH_S`.
+def _script(name: str) -> str:
+    return files(__package__).joinpath(name).read_text()
 
-        Moving the head of a list to its own head changes nothing, but blocks until there is one.
-        """
-        try:
-            commands = self._keys.commands
-            run: Any = self._watcher.execute_command  # blmove()'s annotation knows whole seconds only
-            return run("BLMOVE", commands, commands, "LEFT", "LEFT", WATCH_S) is not None
-        except redis.ResponseError as error:  # the key is no list; the next exchange puts that right
-            log.warning("waiting for commands: %s", error)
-            self._closed.wait(WATCH_S)
-            return True
+
+def _entry(row: bytes) -> Entry:
+    number, text = row.split(b" ", 1)
+    return Entry(int(number), text)
 
 
 def _flat(fields: dict[str, str]) -> list[str]:
-    return [part for pair in fields.items() for part in pair]
+    """Names and values in turn. Half a surrogate pair, which JSON may hold, is no text that Redis' JSON can read."""
+    return [part.encode(errors="replace").decode() for pair in fields.items() for part in pair]
 
 
 def _whole(text: bytes | None) -> int:
-    return int(text) if text is not None and text.isdigit() else 0
+    return int(text) if text is not None and text.isdigit() and len(text) <= COUNT_MAX_DIGITS else 0

@@ -21,12 +21,13 @@ class Entry:
 class Boot:
     """What was left from before: the robot's record, and whether more entries were taken than it knows of.
 
-    Entries numbered up to ``admitted`` were sent before this robot was up.
+    Entries numbered up to ``admitted`` were sent before this robot was up; those ``left`` the record should know of.
     """
 
     record: bytes | None = None
     unhandled: bool = False
     admitted: int = 0
+    left: tuple[Entry, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

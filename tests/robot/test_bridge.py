@@ -149,7 +149,7 @@ def test_an_exchange_whose_answer_was_lost_is_not_done_twice(client, robots, mon
     monkeypatch.setattr(bridge, "_run", run_and_lose_the_answer)
     assert bridge.exchange(News(feedback=(feedback(FeedbackCode.READY),))).entries == ()
     monkeypatch.setattr(bridge, "_run", run)
-    assert bridge._reachable.wait(10.0)
+    assert bridge._connections.wait_until_up(10.0)
     assert texts(bridge.exchange(News())) == [b"go forward"]
     assert client.llen(KEYS.feedback) == 1
     assert client.llen(KEYS.queue) == 1
@@ -245,7 +245,7 @@ def test_a_lost_redis_is_survived_and_nothing_that_was_said_is_lost(tmp_path):
         server.kill()
         bridge.exchange(News(feedback=(feedback(FeedbackCode.READY),), record="state"))
         for _ in range(1000):
-            if bridge._reachable.wait(0.05) and (bridge.exchange(News()), bridge.silent_s < 0.01)[1]:
+            if bridge.wait(0.05) and (bridge.exchange(News()), bridge.silent_s < 0.01)[1]:
                 break
         assert [decode_feedback(text).code for text in client.lrange(KEYS.feedback, 0, -1)] == [FeedbackCode.READY]
         assert client.lrange(KEYS.queue, 0, -1) == [b"1 go forward"]
