@@ -179,10 +179,12 @@ def _synonym(element: Element) -> Synonym:
     text = (element.text or "").strip()
     if not text:
         raise _Fault("<Synonym> is empty: write the word or remove the element")
-    kind = element.get("Kind")
-    if kind is None:
-        return Synonym(text)
-    return Synonym(text, WordKind(_allowed(kind, tuple(k.value for k in WordKind), "<Synonym Kind>")))
+    kind, gives = element.get("Kind"), element.get("Gives")
+    return Synonym(
+        text,
+        None if kind is None else WordKind(_allowed(kind, tuple(k.value for k in WordKind), "<Synonym Kind>")),
+        None if gives is None else _formula(parse_form, "Synonym Gives", gives),
+    )
 
 
 def _irregular(element: Element) -> IrregularForm:

@@ -48,10 +48,14 @@ class FormKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Synonym:
-    """Another word for the predicate; ``kind`` only where it differs from what the entry's type says."""
+    """Another word for the predicate; ``kind`` only where it differs from what the entry's type says.
+
+    ``gives`` is an argument that the word says by itself: "back up" is ``go`` with ``back``.
+    """
 
     text: str
     kind: WordKind | None = None
+    gives: Form | None = None
 
 
 @dataclass(frozen=True, slots=True)

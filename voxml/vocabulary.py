@@ -18,6 +18,7 @@ from .schema import (
     ObjectEntry,
     ProgramEntry,
     RelationEntry,
+    Synonym,
     VoxmlError,
     WordKind,
 )
@@ -32,15 +33,23 @@ _Entry = TypeVar("_Entry", ObjectEntry, ProgramEntry, AttributeEntry, RelationEn
 
 
 @dataclass(frozen=True, slots=True)
+class Reading:
+    """A verb read as one program, with the argument that the word says by itself, if any."""
+
+    entry: ProgramEntry
+    gives: Form | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Sense:
     """What a phrase may be: its category (a terminal of the grammar) and what it stands for there.
 
-    ``value`` is a form, or for verbs the entries it may mean, the one whose own predicate it is first.
+    ``value`` is a form, or for verbs the readings it may have, the entry whose own predicate it is first.
     """
 
     words: tuple[str, ...]
     category: str
-    value: Form | tuple[ProgramEntry, ...]
+    value: Form | tuple[Reading, ...]
 
 
 class Lexicon:
@@ -64,6 +73,10 @@ class Lexicon:
         """The senses of exactly this phrase, inflected or not."""
         words = tuple(phrase.lower().split())
         return tuple(sense for sense in self.senses(words[0]) if sense.words == words) if words else ()
+
+    def categories(self) -> frozenset[str]:
+        """Every category that some sense has: the terminals of the grammar that stand for words."""
+        return frozenset(sense.category for senses in self._senses.values() for sense in senses)
 
     def words(self) -> tuple[str, ...]:
         """Every phrase that means something, in alphabetical order: for completion and for the speech recogniser."""
@@ -100,33 +113,35 @@ def _open_senses(entries: tuple[Entry, ...]) -> Iterator[Sense]:
     # Own predicates come before synonyms, so that a verb's own entry is the first of its readings.
     for own in (True, False):
         for entry in entries:
-            for phrase, kind in _phrases(entry, own):
-                yield from _inflected(entry, phrase, kind)
+            for word in _words(entry, own):
+                yield from _inflected(entry, word)
 
 
-def _phrases(entry: Entry, own: bool) -> list[tuple[str, WordKind | None]]:
+def _words(entry: Entry, own: bool) -> tuple[Synonym, ...]:
     if own:
-        return [(entry.lex.pred.replace("_", " "), None)] if entry.lex.spoken else []
-    return [(synonym.text.lower(), synonym.kind) for synonym in entry.lex.synonyms]
+        return (Synonym(entry.lex.pred.replace("_", " ")),) if entry.lex.spoken else ()
+    return entry.lex.synonyms
 
 
-def _inflected(entry: Entry, phrase: str, kind: WordKind | None) -> Iterator[Sense]:
+def _inflected(entry: Entry, word: Synonym) -> Iterator[Sense]:
+    phrase, kind = word.text.lower(), word.kind
+    readings = (Reading(entry, word.gives),) if isinstance(entry, ProgramEntry) else ()
     irregular = {(form.of, form.kind): form.value for form in entry.lex.forms}
     base = tuple(phrase.split())
 
-    def sense(category: str, form: FormKind | None, value: Form | tuple[ProgramEntry, ...]) -> Sense:
+    def sense(category: str, form: FormKind | None, value: Form | tuple[Reading, ...]) -> Sense:
         return Sense(base if form is None else tuple(inflect(phrase, form, irregular).split()), category, value)
 
     term = Term(entry.lex.pred)
     match entry:
         case ProgramEntry() if kind is WordKind.NOUN:
-            yield sense("EVENT", None, (entry,))
-            yield sense("EVENT", FormKind.PLURAL, (entry,))
+            yield sense("EVENT", None, readings)
+            yield sense("EVENT", FormKind.PLURAL, readings)
         case ProgramEntry():
-            yield sense("VERB", None, (entry,))
-            yield sense("VERB_ING", FormKind.ING, (entry,))
-            yield sense("VERB_PAST", FormKind.PAST, (entry,))
-            yield sense("VERB_THIRD", FormKind.THIRD, (entry,))
+            yield sense("VERB", None, readings)
+            yield sense("VERB_ING", FormKind.ING, readings)
+            yield sense("VERB_PAST", FormKind.PAST, readings)
+            yield sense("VERB_THIRD", FormKind.THIRD, readings)
         case ObjectEntry():
             yield sense("NOUN", None, term)
             yield sense("NOUNS", FormKind.PLURAL, Term("plural", (term,)))
@@ -149,7 +164,7 @@ def _attribute_senses(
     else:
         yield Sense(base, "ADJECTIVE", term)
         if entry.scale == "rational":
-            yield Sense(superlative, "ORDINAL", Term("most", (term,)))
+            yield Sense(superlative, "ORDINAL", Term(inflect(entry.lex.pred, FormKind.SUPERLATIVE, {})))
 
 
 def _closed_senses(closed: ClosedClasses) -> Iterator[Sense]:

@@ -1,0 +1,200 @@
+"""Verbs and what was said with them: which program is meant, and which argument fills which place of its entry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import Enum
+
+from voxml.schema import Argument, ProgramEntry
+from voxml.terms import Form, Name, Quantity, Term, Unit
+from voxml.vocabulary import Lexicon, Reading
+
+from .machine import Refused
+
+_UNIT_TYPES = {Unit.METRE: "length", Unit.DEGREE: "angle", Unit.SECOND: "duration", Unit.COUNT: "count"}
+_TYPE_UNITS = {name: unit for unit, name in _UNIT_TYPES.items()}
+_QUANTITIES = frozenset(_TYPE_UNITS)
+_THINGS = frozenset({"physobj", "location", "human", "artifact", "any"})
+_OPERATORS = frozenset({"and", "or", "not"})
+
+
+class Kind(Enum):
+    """What an argument is by its shape, before a verb makes something of it."""
+
+    AXIS = "axis"
+    SIDE = "side"
+    HEADING = "heading"
+    QUANTITY = "quantity"
+    NUMBER = "number"
+    VAGUE = "vague"
+    PATH = "path"  # a path relation with its place
+    PLACE = "place"  # a place word: there, here
+    LOCATION = "location"  # a locative relation with its place
+    FACING = "facing"
+    OF = "of"
+    WAY = "way"
+    PHRASE = "phrase"
+    MANNER = "manner"
+    REPEAT = "repeat"
+    EVENT = "event"
+
+
+@dataclass(frozen=True, slots=True)
+class Arg:
+    """One argument as it was said: a form, or the readings of an event noun ("a picture")."""
+
+    kind: Kind
+    form: Form
+    readings: tuple[Reading, ...] = ()
+
+
+Args = tuple[Arg, ...]
+
+
+class ArgumentFitter:
+    """Makes a program's form of a verb and its arguments, by the types of the lexicon."""
+
+    def __init__(self, lexicon: Lexicon) -> None:
+        self._lexicon = lexicon
+
+    def program(self, readings: Iterable[Reading], args: Args) -> Form:
+        """The first reading that the arguments fit.
+
+        Raises:
+            Refused: they fit none; the reason is that of the first reading.
+        """
+        reason = ""
+        for reading in readings:
+            try:
+                return self._fit(reading, args)
+            except Refused as refusal:
+                reason = reason or str(refusal)
+        raise Refused(reason or "something else to do")
+
+    def implied(self, args: Args, preds: tuple[str, ...]) -> Form | None:
+        """The program that arguments without a verb say all of: a side with an angle, a way with a distance."""
+        if len(args) < 2:
+            return None
+        try:
+            return self.program([Reading(self._lexicon.programs[pred]) for pred in preds], args)
+        except Refused:
+            return None
+
+    def _fit(self, reading: Reading, args: Args) -> Form:
+        entry = reading.entry
+        bound: dict[str, Form] = {}
+        wrappers: list[Term] = []
+        repeats: list[Form] = []
+        said = [_given(reading.gives), *args] if reading.gives is not None else list(args)
+        for arg in said:
+            if arg.kind is Kind.MANNER:
+                assert isinstance(arg.form, Term)
+                wrappers.append(arg.form)
+            elif arg.kind is Kind.REPEAT:
+                repeats.append(arg.form)
+            else:
+                self._bind(entry, bound, arg)
+        missing = next((slot for slot in _slots(entry) if _needed(slot) and slot.variable not in bound), None)
+        if missing is not None:
+            raise Refused(_wanted(missing))
+        form: Form = Term(
+            entry.lex.pred, tuple(bound[slot.variable] for slot in _slots(entry) if slot.variable in bound)
+        )
+        for wrapper in wrappers:
+            form = Term(wrapper.pred, (form,))
+        for times in repeats:
+            form = Term("repeat", (times, form))
+        return form
+
+    def _bind(self, entry: ProgramEntry, bound: dict[str, Form], arg: Arg) -> None:
+        for slot in _slots(entry):
+            value = self._value(slot, arg)
+            if value is None:
+                continue
+            if slot.variable not in bound:
+                bound[slot.variable] = value
+                return
+            if bound[slot.variable] == value:
+                return  # "turn left ninety degrees to the left"
+        raise Refused(f"no {arg.kind.value} with '{entry.lex.pred.replace('_', ' ')}'")
+
+    def _value(self, slot: Argument, arg: Arg) -> Form | None:
+        """What the argument is in this place, or None where it does not fit."""
+        types = slot.types
+        match arg.kind, arg.form:
+            case Kind.QUANTITY, form:
+                return form if _unit_type(form) in types else None
+            case Kind.NUMBER, Quantity(value=value):
+                unit = next((_TYPE_UNITS[kind] for kind in types if kind in _QUANTITIES), None)
+                return None if unit is None else Quantity(value, unit)
+            case Kind.VAGUE, form:
+                return form if _QUANTITIES & set(types) - {"count"} else None
+            case Kind.SIDE, form:
+                return form if {"side", "rotation"} & set(types) else None
+            case Kind.AXIS | Kind.HEADING | Kind.WAY as kind, form:
+                return form if kind.value in types else None
+            case Kind.PATH | Kind.LOCATION | Kind.FACING | Kind.OF, Term() as form:
+                return self._relation(slot, arg.kind, form)
+            case Kind.PLACE, form:
+                return self._place(slot, form)
+            case Kind.PHRASE, form:
+                return form if slot.bare and self._is_of_type(form, types) else None
+        return None
+
+    def _relation(self, slot: Argument, kind: Kind, form: Term) -> Form | None:
+        if form.pred in slot.markers and len(form.args) == 1 and self._marked(slot, form.args[0]):
+            return form.args[0]
+        wanted = {Kind.PATH: {"path"}, Kind.LOCATION: {"place", "path"}}.get(kind, set())
+        return form if wanted & set(slot.types) else None
+
+    def _marked(self, slot: Argument, form: Form) -> bool:
+        if isinstance(form, Term) and not form.args and form.pred in slot.types:
+            return True
+        return self._is_of_type(form, slot.types)
+
+    def _place(self, slot: Argument, form: Form) -> Form | None:
+        if "path" in slot.types:
+            return Term("to", (form,))
+        return form if {"place", "location", "physobj"} & set(slot.types) else None
+
+    def _is_of_type(self, form: Form, types: tuple[str, ...]) -> bool:
+        """Whether a phrase may stand where one of these types is wanted; what has no noun of its own fits all."""
+        if "name" in types and isinstance(form, Name):
+            return True
+        wanted = _THINGS & set(types)
+        if not wanted:
+            return False
+        if "any" in wanted:
+            return True
+        entry = self._lexicon.objects.get(head_noun(form))
+        return entry is None or bool(wanted & set(entry.lex.types))
+
+
+def head_noun(form: Form) -> str:
+    """The noun at the heart of a phrase: ``the(first(red(block),on(left)))`` -> ``block``."""
+    while isinstance(form, Term) and form.args:
+        form = form.args[0]
+    return form.pred if isinstance(form, Term) else ""
+
+
+def _given(form: Form) -> Arg:
+    return Arg(Kind.AXIS if isinstance(form, Term) and not form.args else Kind.PATH, form)
+
+
+def _slots(entry: ProgramEntry) -> tuple[Argument, ...]:
+    return tuple(slot for slot in entry.args if "agent" not in slot.types)
+
+
+def _needed(slot: Argument) -> bool:
+    return not slot.optional and slot.default is None
+
+
+def _wanted(slot: Argument) -> str:
+    return " or ".join(kind if kind not in _THINGS else "a thing or place" for kind in slot.types[:1])
+
+
+def _unit_type(form: Form) -> str:
+    while isinstance(form, Term) and form.args:  # more(2m)
+        form = form.args[0]
+    return _UNIT_TYPES[form.unit] if isinstance(form, Quantity) else ""

@@ -1,0 +1,191 @@
+"""The LALR automaton, run over a lattice of tokens: Lark builds the tables, this module walks them.
+
+A word of several categories is offered to the automaton as each in turn, in order of preference; the state decides
+which of them may stand there (a contextual lexer), and where a choice fails later the next one is tried. The stack is
+a linked list, so that going back costs nothing.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+END = "$END"
+STEPS_MAX = 4_000
+
+Action = Callable[..., Any]
+
+
+class Refused(Exception):  # noqa: N818 - a reading that does not hold, with the reason; not an error of the program
+    """Raised by an action: the words stand rightly but do not make sense together; ``str()`` says why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Edge:
+    """One way to read the tokens from some position: as ``terminal`` with ``value``, up to ``end``.
+
+    Without a terminal the tokens are passed over.
+    """
+
+    terminal: str | None
+    value: Any
+    end: int
+
+
+@dataclass(frozen=True, slots=True)
+class Reduction:
+    """A rule to reduce by: how many values it takes, where it goes, and what it makes of them."""
+
+    origin: str
+    size: int
+    action: Action
+
+
+@dataclass(frozen=True, slots=True)
+class Tables:
+    """Shifts, reductions and gotos by state, with the terminals that each state accepts."""
+
+    start: int
+    accept: int
+    shifts: tuple[dict[str, int], ...]
+    reductions: tuple[dict[str, Reduction], ...]
+    gotos: tuple[dict[str, int], ...]
+
+    def expected(self, state: int) -> frozenset[str]:
+        return frozenset(self.shifts[state]) | (frozenset(self.reductions[state]) - {END})
+
+
+def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str], Action | None]) -> Tables:
+    """Compile a grammar in Lark's notation, whose terminals are declared to it, into tables.
+
+    ``actions`` gives the action for a rule's alias (or its name); a rule without one and of one symbol passes its value on.
+    """
+    from lark import Lark  # imported where it is used: it is the slowest import of the room
+
+    used = sorted(set(re.findall(r"\b[A-Z][A-Z_]+\b", re.sub(r"//.*", "", grammar))))
+    missing = sorted(set(used) - set(terminals))
+    if missing:
+        raise ValueError(f"grammar uses {', '.join(missing)}, of which the lexicon has no words")
+    text = f"{grammar}\n%declare {' '.join(used)}\n"
+    parser: Any = Lark(text, parser="lalr", lexer="basic", start="start", maybe_placeholders=False)
+    table = parser.parser.parser._parse_table
+    number = {state: index for index, state in enumerate(table.states)}
+    known: dict[int, Reduction] = {}
+    shifts, reductions, gotos = [], [], []
+    for state in table.states:
+        rows: tuple[dict[str, int], dict[str, Reduction], dict[str, int]] = ({}, {}, {})
+        for symbol, (kind, target) in table.states[state].items():
+            if str(kind) == "Reduce":
+                rows[1][symbol] = known.setdefault(id(target), _reduction(target, actions))
+            else:
+                rows[0 if symbol.isupper() or symbol == END else 2][symbol] = number[target]
+        shifts.append(rows[0])
+        reductions.append(rows[1])
+        gotos.append(rows[2])
+    return Tables(
+        number[table.start_states["start"]],
+        number[table.end_states["start"]],
+        tuple(shifts),
+        tuple(reductions),
+        tuple(gotos),
+    )
+
+
+def _reduction(rule: Any, actions: Callable[[str], Action | None]) -> Reduction:
+    name = str(rule.alias or rule.origin.name)
+    action, size = actions(name), len(rule.expansion)
+    if action is None and size != 1:
+        raise ValueError(f"rule {name} of {size} symbols has no action")
+    return Reduction(str(rule.origin.name), size, action or (lambda value: value))
+
+
+@dataclass(slots=True)
+class Trace:
+    """How far the automaton came and what it expected there; why readings were refused."""
+
+    furthest: int = 0
+    state: int = 0
+    refusals: list[tuple[int, str]] | None = None
+    steps: int = 0
+
+    def refuse(self, at: int, reason: str) -> None:
+        if self.refusals is None:
+            self.refusals = []
+        self.refusals.append((at, reason))
+
+
+Node = tuple[int, Any, Any]  # state, value, the node below
+
+
+class Machine:
+    """Runs the tables over a lattice. ``edges(i)`` gives the ways to read on from position i, the preferred first."""
+
+    def __init__(self, tables: Tables) -> None:
+        self._tables = tables
+
+    def readings(
+        self, start: int, edges: Callable[[int], Sequence[Edge]], may_end: Callable[[int], bool], trace: Trace
+    ) -> Iterator[tuple[Any, int]]:
+        """Every sentence that begins at ``start``, with its end; the longest of the preferred reading first."""
+        tables = self._tables
+        pending: list[tuple[Node, int, int]] = [((tables.start, None, None), start, 0)]
+        while pending:
+            node, at, choice = pending.pop()
+            options = edges(at)
+            while choice < len(options):
+                edge = options[choice]
+                choice += 1
+                if edge.terminal is None:
+                    if choice < len(options) or may_end(at):
+                        pending.append((node, at, choice))
+                    at, choice, options = edge.end, 0, edges(edge.end)
+                    continue
+                following = self._shift(node, edge.terminal, edge.value, at, trace)
+                if following is None:
+                    continue
+                trace.steps += 1
+                if trace.steps > STEPS_MAX:
+                    return
+                if choice < len(options) or may_end(at):
+                    pending.append((node, at, choice))
+                node, at, choice, options = following, edge.end, 0, edges(edge.end)
+                if at > trace.furthest:
+                    trace.furthest, trace.state = at, node[0]
+            if at > start and may_end(at):
+                ended = self._shift(node, END, None, at, trace)
+                if ended is not None:
+                    yield ended[2][1], at
+
+    def _shift(self, node: Node, terminal: str, value: Any, at: int, trace: Trace) -> Node | None:
+        """Reduce as the lookahead demands, then shift; None where the state does not accept it or an action refuses."""
+        tables = self._tables
+        shifts, reductions, gotos = tables.shifts, tables.reductions, tables.gotos
+        while True:
+            state = node[0]
+            if terminal == END and state == tables.accept:
+                return (state, value, node)
+            target = shifts[state].get(terminal)
+            if target is not None:
+                return (target, value, node)
+            reduction = reductions[state].get(terminal)
+            if reduction is None:
+                return None
+            size = reduction.size
+            if size == 1:
+                arguments = (node[1],)
+                node = node[2]
+            else:
+                values = []
+                for _ in range(size):
+                    values.append(node[1])
+                    node = node[2]
+                values.reverse()
+                arguments = tuple(values)
+            try:
+                made = reduction.action(*arguments)
+            except Refused as refusal:
+                trace.refuse(at, str(refusal))
+                return None
+            node = (gotos[node[0]][reduction.origin], made, node)

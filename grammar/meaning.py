@@ -1,0 +1,272 @@
+"""What each rule of the grammar means: the actions of the automaton, by the rule's name in the ``.lark`` file."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from voxml.terms import Form, Quantity, Term
+from voxml.vocabulary import Lexicon, Reading
+
+from . import phrases
+from .acts import Function
+from .arguments import Arg, Args, ArgumentFitter, Kind
+from .machine import Action, Refused
+from .phrases import YOU, Nominal, Pre
+
+Act = tuple[Function, Form]
+_IMPLIED = ("turn", "go", "sidestep")
+
+
+class Meaning:
+    """The actions over one lexicon. A method is the action of the rule that has its name."""
+
+    def __init__(self, lexicon: Lexicon) -> None:
+        self._fitter = ArgumentFitter(lexicon)
+        self._lexicon = lexicon
+
+    def action(self, rule: str) -> Action | None:
+        """The action of a rule; None for one that has none."""
+        return _PLAIN.get(rule) or getattr(self, rule, None)
+
+    # ------------------------------------------------------------ acts
+    def act_fragment(self, args: Args) -> Act:
+        """ "ninety degrees" leans on what went before; "left ninety degrees" says all of an instruction."""
+        implied = self._fitter.implied(args, _IMPLIED)
+        if implied is not None:
+            return Function.INSTRUCT, implied
+        if len(args) != 1 or args[0].kind in (Kind.EVENT, Kind.OF):
+            if len(args) == 1 and args[0].readings:
+                return Function.INSTRUCT, self._fitter.program(args[0].readings, ())
+            raise Refused("a verb")
+        arg = args[0]
+        return Function.FRAGMENT, Term("repeat", (arg.form,)) if arg.kind is Kind.REPEAT else arg.form
+
+    def act_halt(self, value: Form) -> Act:
+        return Function.INSTRUCT, Term("stop")
+
+    def act_same(self, again: Form, args: Args) -> Act:
+        return Function.FRAGMENT, Term("again", tuple(arg.form for arg in args))
+
+    def act_forbid(self, no: Form, what: Form) -> Act:
+        return Function.INSTRUCT, Term("not", (what,))
+
+    # ------------------------------------------------------------ verbs
+    def verb(self, readings: Any, args: Args = ()) -> Form:
+        """A verb with its arguments; light verbs leave the meaning to their noun ("take a picture")."""
+        events = [arg for arg in args if arg.kind is Kind.EVENT]
+        rest = tuple(arg for arg in args if arg.kind is not Kind.EVENT)
+        if events:
+            return self._fitter.program(events[0].readings, rest)
+        if isinstance(readings, Term):
+            if not rest:
+                raise Refused("what to do")
+            readings = tuple(
+                Reading(self._lexicon.programs[arg.pred]) for arg in readings.args if isinstance(arg, Term)
+            )
+        return self._fitter.program(readings, rest)
+
+    def verb_led(self, lead: Form, readings: Any, args: Args = ()) -> Form:
+        return self.verb(readings, args)
+
+    def light_bare(self, lead: Form, args: Args) -> Form:
+        """ "can you ... left ninety degrees"."""
+        implied = self._fitter.implied(args, _IMPLIED)
+        if implied is None:
+            return self.verb(tuple(Reading(self._lexicon.programs[pred]) for pred in ("go", "turn")), args)
+        return implied
+
+    # ------------------------------------------------------------ arguments
+    def path(self, relation: Form, place: Form) -> Arg:
+        return Arg(Kind.PATH, phrases.relation(relation, place))
+
+    def path_point(self, relation: Form, x: Quantity, y: Quantity) -> Arg:
+        """ "to 2 3", "to coordinates 2 3": a place on the map."""
+        point = Term("point", tuple(parse_metres(each) for each in (x, y)))
+        return Arg(Kind.PATH, Term(_pred(relation), (point,)))
+
+    def event(self, readings: tuple[Reading, ...]) -> Arg:
+        return Arg(Kind.EVENT, Term("event"), readings)
+
+    def of_what(self, of: Form, what: Form, be: Form, args: Args) -> Arg:
+        """ "(a picture) of what is on your left"."""
+        where = args[0].form
+        return Arg(Kind.OF, Term("of", (_where(args[0].kind, where),)))
+
+    # ------------------------------------------------------------ conditions
+    def seeing(self, who: Form, see: Form, what: Form) -> Form:
+        return Term(_pred(see), (what,))
+
+    def done_verb(self, readings: tuple[Reading, ...]) -> Form:
+        return Term("done", (Term(readings[0].entry.lex.pred),))
+
+    # ------------------------------------------------------------ questions
+    def q_see_where(self, see: Form, args: Args) -> Form:
+        return Term("see", (Term("what"), *(_where(arg.kind, arg.form) for arg in args)))
+
+    def q_form(self, form: Form, args: Args = ()) -> Form:
+        return form
+
+    def q_count(self, how_many: Form, what: Nominal, *rest: Any) -> Form:
+        return Term("count", (what.described(), *what.modifiers))
+
+    def q_count_where(self, how_many: Form, what: Nominal, be: Form, posts: tuple[Form, ...]) -> Form:
+        return Term("count", (what.described(), *what.modifiers, *posts))
+
+    def q_what_kind(self, what: Form, kind: Nominal, be: Form, posts: tuple[Form, ...]) -> Form:
+        return Term("see", (phrases.phrase(Term("what"), kind), *posts))
+
+    def q_see_kind(self, what: Form, kind: Nominal, see: Form) -> Form:
+        return Term("see", (phrases.phrase(Term("what"), kind),))
+
+
+def parse_metres(number: Quantity) -> Form:
+    """A coordinate: a bare number is metres."""
+    from voxml.terms import Unit
+
+    return Quantity(number.value, Unit.METRE)
+
+
+def _pred(form: Form) -> str:
+    assert isinstance(form, Term), form
+    return form.pred
+
+
+def _where(kind: Kind, form: Form) -> Form:
+    """A place as a modifier: "on your left" is ``on(left)``."""
+    if kind is Kind.SIDE:
+        return phrases.on_side(form)
+    if kind is Kind.AXIS:
+        return phrases.ahead(form)
+    return form
+
+
+def _second(first: Any, second: Any, *rest: Any) -> Any:
+    return second
+
+
+def _arg(kind: Kind) -> Action:
+    return lambda form: Arg(kind, form)
+
+
+def _of(kind: Function) -> Action:
+    return lambda form: (kind, form)
+
+
+def _says(kind: Function, pred: str) -> Action:
+    return lambda form: (kind, Term(pred))
+
+
+def _holds(operator: str) -> Action:
+    return lambda marker, condition, core: Term(operator if operator != "if" else _pred(marker), (condition, core))
+
+
+_PLAIN: dict[str, Action] = {
+    # acts
+    "act_instruct": _of(Function.INSTRUCT),
+    "act_question": _of(Function.QUESTION),
+    "act_inform": _of(Function.INFORM),
+    "act_confirm": _says(Function.CONFIRM, "yes"),
+    "act_deny": _says(Function.DENY, "no"),
+    "act_greet": _of(Function.GREET),
+    "act_thank": _of(Function.THANK),
+    "act_bye": _of(Function.BYE),
+    "act_acknowledge": _of(Function.ACKNOWLEDGE),
+    "act_again": _says(Function.FRAGMENT, "again"),
+    "act_answer": _of(Function.ANSWER),
+    # commands
+    "conditional": _holds("if"),
+    "conditional_marked": lambda marker, condition, mark, core: Term(_pred(marker), (condition, core)),
+    "conditional_marked2": lambda marker, condition, mark, then, core: Term(_pred(marker), (condition, core)),
+    "conditional_after": lambda core, marker, condition: Term(_pred(marker), (condition, core)),
+    "until": lambda core, marker, condition: Term("until", (condition, core)),
+    "until_first": lambda marker, condition, core: Term("until", (condition, core)),
+    "until_first_marked": lambda marker, condition, mark, core: Term("until", (condition, core)),
+    # arguments
+    "second": _second,
+    "fourth": lambda first, second, third, fourth: fourth,
+    "first": lambda arg: (arg,),
+    "first_np": lambda form: (Arg(Kind.PHRASE, form),),
+    "more": lambda args, arg: (*args, arg),
+    "axis": _arg(Kind.AXIS),
+    "side": _arg(Kind.SIDE),
+    "arg_heading": _arg(Kind.HEADING),
+    "quantity": _arg(Kind.QUANTITY),
+    "quantity_more": _arg(Kind.QUANTITY),
+    "vague": _arg(Kind.VAGUE),
+    "number": _arg(Kind.NUMBER),
+    "times": lambda number, times: Arg(Kind.REPEAT, number),
+    "repeat": _arg(Kind.REPEAT),
+    "path_place": lambda relation, place: Arg(Kind.PATH, Term(_pred(relation), (place,))),
+    "path_axis": lambda relation, axis: Arg(Kind.AXIS, axis),
+    "path_alone": lambda relation: Arg(Kind.PATH, relation),
+    "place": _arg(Kind.PLACE),
+    "location": lambda relation, place: Arg(Kind.LOCATION, phrases.relation(relation, place)),
+    "facing": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),
+    "facing_heading": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),
+    "of": lambda of, what: Arg(Kind.OF, Term("of", (what,))),
+    "of_view": lambda of, view: Arg(Kind.OF, Term("of", (view,))),
+    "manner": _arg(Kind.MANNER),
+    "way": lambda demonstrative, way: Arg(Kind.WAY, Term(_pred(demonstrative), (Term("way"),))),
+    "opposite": _arg(Kind.WAY),
+    "first_of_two": lambda heading, way: heading,
+    # noun phrases
+    "both": lambda one, mark, other: Term("and", (one, other)),
+    "alternatives": lambda one, mark, other: Term("or", (one, other)),
+    "determined": phrases.phrase,
+    "demonstrative": lambda form: form,
+    "bare": phrases.bare_phrase,
+    "pronoun": lambda form: form,
+    "nominal": phrases.nominal,
+    "nominal_post": lambda noun, posts: phrases.nominal(noun, (), posts),
+    "nominal_pre": lambda pres, noun: phrases.nominal(noun, pres),
+    "nominal_pre_post": lambda pres, noun, posts: phrases.nominal(noun, pres, posts),
+    "headless": phrases.headless,
+    "headless_post": phrases.headless,
+    "compound": phrases.compound,
+    "one_pre": lambda pre: (pre,),
+    "more_pres": lambda pres, pre: (*pres, pre),
+    "more_pres_marked": lambda pres, mark, pre: (*pres, pre),
+    "more_pres_or": lambda pres, mark, pre: (*pres, pre),
+    "ordinal": lambda form: Pre(form, True),
+    "cardinal": lambda form: Pre(form, True),
+    "adjective": lambda form: Pre(form, False),
+    "one_post": lambda post: (post,),
+    "more_posts": lambda posts, post: (*posts, post),
+    "relation": phrases.relation,
+    "relation_you": lambda relation, you: Term(_pred(relation), (YOU,)),
+    "on_side": phrases.on_side,
+    "ahead": phrases.ahead,
+    "relation_heading": lambda facing, heading: Term("facing", (heading,)),
+    "numbered": lambda mark, number: Term("number", (number,)),
+    "numbered_bare": lambda number: Term("number", (number,)),
+    "toward_heading": lambda mark, heading: Term("to", (heading,)),
+    "at_place": lambda place: place,
+    "that_facing": lambda *parts: Term("in_front_of", (YOU,)),
+    "that_seen": lambda *parts: Term("visible"),
+    "where_thing": lambda that, thing, be, *post: Term("with", (thing, *post)),
+    "where_seen": lambda that, you, see, thing: Term("with", (thing,)),
+    # conditions
+    "existing": lambda there, what: Term("exists", (what,)),
+    "being": lambda what, be, where: Term("is", (what, where)),
+    "you_being": lambda you, be, where: Term("is", (YOU, where)),
+    # questions
+    "q_where": lambda where, what: Term("where", (what,)),
+    "q_where_you": lambda where, you: Term("where", (YOU,)),
+    "q_exists": lambda there, what: Term("exists", (what,)),
+    "q_exists_any": lambda there, posts: Term("exists", (Term("anything"), *posts)),
+    "q_see": lambda see, what: Term("exists", (what,)),
+    "q_far": lambda far, what: Term("distance", (what,)),
+    "q_far_place": lambda far, place: Term("distance", (place,)),
+    "q_property": lambda kind, what: Term(_pred(kind), (what,)),
+    "q_what": lambda what, be, thing: Term("what", (thing,)),
+    "q_what_where": lambda what, be, posts: Term("see", (Term("what"), *posts)),
+    "q_is": lambda be, this, what: Term("is", (this, what)),
+    "q_is_where": lambda be, what, where: Term("is", (what, where)),
+    "q_know_what": lambda know, what, thing, be: Term("what", (thing,)),
+    "q_know": lambda know, what: Term("know", (what,)),
+    # statements
+    "is_a": lambda what, be, thing: Term("is", (what, thing)),
+    "is_not": lambda what, be, mark, thing: Term("not", (Term("is", (what, thing)),)),
+    "i_see": lambda you, see, what: Term("see", (what,)),
+    "there_is": lambda there, what: Term("exists", (what,)),
+}

@@ -1,0 +1,125 @@
+"""What the parts of a noun phrase make together, in the notation of ``docs/forms.md``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from voxml.terms import Form, Quantity, Term
+
+from .machine import Refused
+
+ONE = Term("one")
+YOU = Term("you")
+_WHOLE = frozenset({"all", "both", "every", "each", "any", "no", "either", "neither", "most"})
+_AHEAD = {"forward": Term("in_front_of", (YOU,)), "back": Term("behind", (YOU,))}
+
+
+@dataclass(frozen=True, slots=True)
+class Nominal:
+    """A noun with what stands around it, before a determiner is put to it."""
+
+    noun: Form
+    plural: bool = False
+    adjectives: tuple[Term, ...] = ()
+    orderings: tuple[Form, ...] = ()
+    modifiers: tuple[Form, ...] = ()
+
+    def described(self) -> Form:
+        """The noun inside its adjectives."""
+        form = self.noun
+        for adjective in reversed(self.adjectives):
+            form = Term(adjective.pred, (form,))
+        return form
+
+
+@dataclass(frozen=True, slots=True)
+class Pre:
+    """Something before the noun: an adjective, an ordinal or superlative, a count."""
+
+    form: Form
+    is_ordering: bool
+
+
+def nominal(noun: Form, pres: tuple[Pre, ...] = (), posts: tuple[Form, ...] = ()) -> Nominal:
+    """A noun with what was said before and after it."""
+    plural = isinstance(noun, Term) and noun.pred == "plural"
+    bare = noun.args[0] if isinstance(noun, Term) and plural else noun
+    adjectives = tuple(pre.form for pre in pres if not pre.is_ordering and isinstance(pre.form, Term))
+    return Nominal(bare, plural, adjectives, tuple(pre.form for pre in pres if pre.is_ordering), posts)
+
+
+def headless(pres: tuple[Pre, ...], posts: tuple[Form, ...] = ()) -> Nominal:
+    """ "the first", "the nearest on the left": a noun is understood; "the red" is not English for a thing."""
+    if not any(pre.is_ordering and isinstance(pre.form, Term) for pre in pres):
+        raise Refused("a noun")
+    return nominal(ONE, pres, posts)
+
+
+def phrase(determiner: Form, what: Nominal) -> Form:
+    """A noun phrase: orderings inside the determiner, modifiers inside the innermost of them."""
+    assert isinstance(determiner, Term)
+    core = what.described()
+    if what.plural and determiner.pred not in _WHOLE:
+        core = Term("plural", (core,))
+    chain = flat_chain(what.modifiers)
+    for ordering in reversed(what.orderings):
+        inner = (core, *chain)
+        core = Term("count", (ordering, *inner)) if isinstance(ordering, Quantity) else Term(_pred(ordering), inner)
+        chain = ()
+    return Term(determiner.pred, (core, *chain))
+
+
+def flat_chain(modifiers: tuple[Form, ...]) -> tuple[Form, ...]:
+    """Modifiers of a landmark are put into the chain behind it: which of the two they belong to, the world settles."""
+    chain: list[Form] = []
+    for modifier in modifiers:
+        chain.append(modifier)
+        match modifier:
+            case Term(pred, (Term(determiner, (core, *inner)),)) if inner and determiner in ("the", "a"):
+                chain[-1:] = [Term(pred, (Term(determiner, (core,)),)), *inner]
+    return tuple(chain)
+
+
+def bare_phrase(what: Nominal) -> Form:
+    """Without a determiner: "go to table" means the one there is, "find doors" some."""
+    return phrase(Term("some" if what.plural else "the"), what)
+
+
+def compound(modifier: Form, head: Form) -> Form:
+    """ "conference table": the first noun narrows the second as an adjective does."""
+    if not isinstance(modifier, Term) or not isinstance(head, Term):
+        raise Refused("a noun")
+    narrowing = modifier.args[0] if modifier.pred == "plural" else modifier
+    if head.pred == "plural":
+        return Term("plural", (Term(_pred(narrowing), head.args),))
+    return Term(_pred(narrowing), (head,))
+
+
+def relation(relation_form: Form, place: Form) -> Term:
+    """A relation with its landmark; "between a and b" takes the two apart."""
+    pred = _pred(relation_form)
+    if pred == "between" and isinstance(place, Term) and place.pred == "and":
+        return Term(pred, place.args)
+    return Term(pred, (place,))
+
+
+def on_side(side: Form) -> Term:
+    return Term("on", (side,))
+
+
+def ahead(axis: Form) -> Term:
+    """ "the door ahead", "the one behind" as seen by the robot."""
+    return _AHEAD[_pred(axis)]
+
+
+def with_modifier(form: Form, modifier: Form) -> Form:
+    """A phrase with one more modifier at the end of its chain."""
+    if not isinstance(form, Term):
+        raise Refused("a thing")
+    return replace(form, args=(*form.args, modifier))
+
+
+def _pred(form: Form) -> str:
+    if not isinstance(form, Term):
+        raise Refused("a word")
+    return form.pred

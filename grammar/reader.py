@@ -1,0 +1,152 @@
+"""One utterance -> its dialogue acts: clause by clause, each the longest the grammar can make of what follows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+from voxml.terms import Form, Term
+from voxml.vocabulary import Lexicon
+
+from .acts import DialogueAct, Function, NotUnderstood
+from .expectations import describe_expected
+from .lattice import AMOUNT_TERMINALS, Lattice, WordReader
+from .machine import Machine, Tables, Trace, build_tables
+from .meaning import Meaning
+from .numbers import NumberReader
+from .tokens import MARKS, Token, Tokenizer
+
+TEXT_MAX_CHARS = 2_000
+READINGS_MAX = 12
+LANGUAGES = Path(__file__).parent / "languages"
+_SOCIAL = frozenset({Function.ACKNOWLEDGE, Function.GREET, Function.THANK, Function.BYE, Function.CONFIRM})
+_STOP = Term("stop")
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """One act and the tokens it was read from, ``[start, end)``; ``before`` where it was said to come first."""
+
+    function: Function
+    form: Form
+    start: int
+    end: int
+    before: bool = False
+
+
+class Reader:
+    """Reads utterances with one lexicon and one language's grammar. Immutable; building it takes about 0.2 s."""
+
+    def __init__(self, lexicon: Lexicon, language: str = "en") -> None:
+        numbers = NumberReader(lexicon.closed)
+        meaning = Meaning(lexicon)
+        vocabulary = lexicon.vocabulary()
+        self._machine, self._tables = _machine(lexicon, language, meaning)
+        self._words = WordReader(lexicon, numbers)
+        self._tokenizer = Tokenizer(
+            lexicon.closed, lambda word: word in vocabulary or numbers.may_start(word) or numbers.is_unit(word)
+        )
+
+    def read(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
+        """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
+        if len(text) > TEXT_MAX_CHARS:
+            return NotUnderstood((TEXT_MAX_CHARS, len(text)), (f"at most {TEXT_MAX_CHARS} characters",))
+        tokens = self._tokenizer(text)
+        attempt = _Attempt(tokens, Lattice(tokens, self._words), self._machine)
+        clauses = attempt.clauses(0)
+        if not clauses:
+            return self._not_understood(text, tokens, attempt.trace)
+        return tuple(
+            DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end))
+            for clause in _ordered(clauses)
+        )
+
+    def _not_understood(self, text: str, tokens: tuple[Token, ...], trace: Trace) -> NotUnderstood:
+        expected = describe_expected(self._tables.expected(trace.state), trace)
+        if trace.furthest < len(tokens):
+            token = tokens[trace.furthest]
+            return NotUnderstood((token.start, token.end), expected)
+        return NotUnderstood((len(text), len(text)), expected)
+
+
+class _Attempt:
+    """The search through one utterance: what can be made of the tokens from each position on, found once."""
+
+    def __init__(self, tokens: tuple[Token, ...], lattice: Lattice, machine: Machine) -> None:
+        self.trace = Trace()
+        self._count = len(tokens)
+        self._lattice = lattice
+        self._machine = machine
+        self._known: dict[int, tuple[Clause, ...] | None] = {}
+
+    def clauses(self, at: int) -> tuple[Clause, ...] | None:
+        """The clauses from ``at`` to the end; None where the rest cannot be read."""
+        start, before = self._past_connectives(at)
+        if start >= self._count:
+            return ()
+        if start not in self._known:
+            self._known[start] = self._read_from(start)
+        found = self._known[start]
+        return None if found is None else (replace(found[0], before=before), *found[1:])
+
+    def _read_from(self, start: int) -> tuple[Clause, ...] | None:
+        trace = Trace()
+        found = None
+        for count, ((function, form), end) in enumerate(
+            self._machine.readings(start, self._lattice.edges, self._lattice.may_end, trace)
+        ):
+            rest = self.clauses(end)
+            if rest is not None:
+                found = (Clause(function, form, start, end), *rest)
+                break
+            if count >= READINGS_MAX:
+                break
+        if trace.furthest > self.trace.furthest:
+            self.trace = trace
+        return found
+
+    def _past_connectives(self, at: int) -> tuple[int, bool]:
+        """Past marks, "and", "then", "but"; and whether "before that" was among them."""
+        before = False
+        while at < self._count:
+            edges = self._lattice.edges(at)
+            step = next((edge for edge in edges if edge.terminal in ("BEFORE_THAT", "THEN", "AND", "BUT")), None)
+            if step is None and self._lattice.texts[at] not in MARKS:
+                break
+            before = before or (step is not None and step.terminal == "BEFORE_THAT")
+            at = at + 1 if step is None else step.end
+        return at, before
+
+
+def _ordered(clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
+    """What was said to come first, first; and pleasantries only where nothing else was said."""
+    ordered: list[Clause] = []
+    for clause in clauses:
+        ordered.insert(max(len(ordered) - 1, 0) if clause.before else len(ordered), clause)
+    if any(clause.function not in _SOCIAL for clause in ordered):
+        ordered = [clause for clause in ordered if clause.function not in _SOCIAL]
+    return tuple(_corrected(ordered))
+
+
+def _corrected(clauses: list[Clause]) -> list[Clause]:
+    """ "no, turn left" corrects; "no, stop" stops."""
+    if len(clauses) < 2 or clauses[0].function is not Function.DENY:
+        return clauses
+    first, *others = clauses[1:]
+    if first.form == _STOP or first.function is Function.DENY:
+        return [first, *others]
+    if first.function in (Function.INSTRUCT, Function.FRAGMENT):
+        return [replace(first, function=Function.CORRECT), *others]
+    return clauses
+
+
+@cache
+def _language(language: str) -> str:
+    return (LANGUAGES / f"{language}.lark").read_text(encoding="utf-8")
+
+
+def _machine(lexicon: Lexicon, language: str, meaning: Meaning) -> tuple[Machine, Tables]:
+    terminals = {*AMOUNT_TERMINALS, *lexicon.categories(), *lexicon.closed.classes}
+    tables = build_tables(_language(language), terminals, meaning.action)
+    return Machine(tables), tables
