@@ -88,7 +88,7 @@ def _send(turn: Turn, made: Plan) -> None:
     moving = [c for c in made.commands if not isinstance(c, Control)]
     turn.highlight(tuple(entity.id for entity in made.entities), made.places)
     turn.update(
-        spoken_of=tuple(entity.id for entity in made.entities) or turn.session.spoken_of,
+        world=turn.session.world.speaking_of(tuple(entity.id for entity in reversed(made.entities))),
         place=made.places[-1] if made.places else turn.session.place,
     )
     first = _in_the_way(turn) if moving else None

@@ -246,6 +246,7 @@ class _Planner:
             raise _Stops(outcome)
         if isinstance(outcome.one, Entity):
             self.entities.append(outcome.one)
+            self.world = self.world.speaking_of((outcome.one.id,))
         elif isinstance(outcome.one, Point):
             self.places.append(outcome.one)
         return outcome.one

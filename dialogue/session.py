@@ -54,8 +54,7 @@ _UNKNOWN = World()
 class Session:
     """One conversation. ``ideal`` is where the robot's last movement ends, or ended, if nothing goes wrong.
 
-    ``pointings`` are those not yet used, the newest last. ``spoken_of`` are the things last meant, by id, and
-    ``place`` the last place.
+    ``pointings`` are those not yet used, the newest last. ``place`` is the place last spoken of.
     """
 
     state: State = State.IDLE
@@ -67,7 +66,6 @@ class Session:
     ideal: Pose | None = None
     question: Question | None = None
     pointings: tuple[Pointing, ...] = ()
-    spoken_of: tuple[str, ...] = ()
     place: Point | None = None
 
     @property

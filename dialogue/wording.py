@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from grammar.acts import NotUnderstood
 from grammar.forms import Form, Name, Quantity, Term
 from grounding import Entity, Reason, Unresolved, World
-from grounding.descriptions import ORDERINGS, PLURAL
+from grounding.descriptions import PLURAL
+from grounding.ordering import ORDERINGS
 from robot.messages import Command, Control, GoForward, GoTo, Patrol, Side, Turn, format_number
 
 from .planning import Refusal, Refused

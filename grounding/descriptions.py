@@ -7,21 +7,18 @@ from dataclasses import dataclass, replace
 
 from grammar.forms import Form, Name, Quantity, Term
 
-DEFINITE = frozenset({"the"})
-INDEFINITE = frozenset({"a", "some", "any", "another"})
-PLURAL = frozenset({"all", "both", "every", "each"})
+from .ordering import ORDERINGS
+
+DEFINITE = frozenset({"the", "your", "my", "our", "his", "her", "its", "their"})
+INDEFINITE = frozenset({"a", "some", "any", "another", "either"})
+PLURAL = frozenset({"all", "both", "every", "each", "what", "which"})
 DEMONSTRATIVE = frozenset({"this", "that", "these", "those"})
 DETERMINERS = DEFINITE | INDEFINITE | PLURAL | DEMONSTRATIVE
-ORDINALS = {
-    name: rank
-    for rank, name in enumerate(
-        ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"), start=1
-    )
-}
-LAST = "last"
-SUPERLATIVES = frozenset({"nearest", "closest", "farthest", "furthest", "next"})
-ORDERINGS = frozenset(ORDINALS) | SUPERLATIVES | {LAST}
+EXCLUDING = frozenset({"another"})
+"""Determiners of something else than was spoken of."""
+
 POINTED = "pointed"
+_MANY = "plural"
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,36 +32,54 @@ class Description:
     ordering: str | None = None
     modifiers: tuple[Term, ...] = ()
     pointing: Term | None = None
+    plural: bool = False
 
 
 def describe(form: Form) -> Description | None:
     """The parts of a noun phrase; None for a form that is none (a place, a heading, a name)."""
-    if not isinstance(form, Term) or form.pred not in DETERMINERS or not form.args:
+    if not isinstance(form, Term) or form.pred not in DETERMINERS:
         return None
-    core: Form = form.args[0]
-    rest = form.args[1:]
-    inner: tuple[Form, ...] = ()
-    ordering: str | None = None
-    if isinstance(core, Term) and core.pred in ORDERINGS and core.args:
-        ordering, inner = core.pred, core.args[1:]
-        core = core.args[0]
-    chain = [part for part in (*inner, *rest) if isinstance(part, Term)]
-    adjectives = []
-    while isinstance(core, Term) and len(core.args) == 1 and isinstance(core.args[0], Term):
-        adjectives.append(core.pred)
-        core = core.args[0]
+    core, chain, ordering = _restrictor(form)
     if not isinstance(core, Term):
         return None
+    adjectives = []
+    while len(core.args) == 1 and isinstance(inner := core.args[0], Term):
+        adjectives.append(core.pred)
+        core = inner
     chain = [part for part in core.args if isinstance(part, Term)] + chain
     return Description(
         form,
         form.pred,
         core.pred,
-        tuple(adjectives),
+        tuple(adjective for adjective in adjectives if adjective != _MANY),
         ordering,
-        tuple(part for part in chain if part.pred != POINTED),
-        next((part for part in chain if part.pred == POINTED), None),
+        tuple(part for part in chain if part.pred != POINTED and not _pointing_in(part)),
+        next(filter(None, map(_pointing_in, chain)), None),
+        _MANY in adjectives,
     )
+
+
+def _restrictor(phrase: Term) -> tuple[Form, list[Term], str | None]:
+    """The noun with its adjectives, the chain of modifiers, and the ordering; a bare demonstrative is of some one."""
+    if not phrase.args or phrase.args[0] == Term(POINTED) or _pointing_in(phrase.args[0]) is not None:
+        return Term("one"), [part for part in phrase.args if isinstance(part, Term)], None
+    core: Form = phrase.args[0]
+    rest = phrase.args[1:]
+    ordering: str | None = None
+    if isinstance(core, Term) and core.pred in ORDERINGS and core.args:
+        ordering, rest = core.pred, (*core.args[1:], *rest)
+        core = core.args[0]
+    return core, [part for part in rest if isinstance(part, Term)], ordering
+
+
+def _pointing_in(part: Form) -> Term | None:
+    """``pointed(...)`` itself, or in ``there(pointed(...))``."""
+    if not isinstance(part, Term):
+        return None
+    if part.pred == POINTED:
+        return part
+    first = part.args[0] if part.pred in ("there", "here") and part.args else None
+    return first if isinstance(first, Term) and first.pred == POINTED else None
 
 
 def attachments(modifiers: tuple[Term, ...]) -> Iterator[tuple[Term, ...]]:

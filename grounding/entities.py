@@ -74,9 +74,9 @@ class Entities:
         return np.array([(e.pose.x_m, e.pose.y_m) for e in self.items], dtype=np.float64).reshape(-1, 2)
 
     @cached_property
-    def yaw_rad(self) -> NDArray[np.float64]:
-        """The ways they look, shape (n,)."""
-        return np.array([e.pose.yaw_rad for e in self.items], dtype=np.float64)
+    def size_m(self) -> NDArray[np.float64]:
+        """Length, width and height, shape (n, 3)."""
+        return np.array([e.size_m for e in self.items], dtype=np.float64).reshape(-1, 3)
 
     @cached_property
     def rows_by_fiducial(self) -> dict[str, int]:

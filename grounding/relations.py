@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from robot.geometry import Pose
 from voxml.schema import RelationEntry
 
-from .entities import Mask
+from .entities import Entity, Mask
 
 COMPASS_RAD = {
     name: math.radians(45.0 * step)
@@ -67,7 +67,7 @@ class Frame(Enum):
     MAP = "map"
 
 
-Holds = Callable[[Pose, Pose, Places], Mask]
+Holds = Callable[[Pose, Entity, Places], Mask]
 """(robot, landmark, places of shape (n, 2)) -> of which places the relation to the landmark holds, shape (n,)."""
 
 
@@ -79,12 +79,18 @@ def relation(entry: RelationEntry) -> Holds | None:
     distance = _DISTANCE.fullmatch(entry.constraint or "")
     if distance is not None:
         return _at_distance(distance[1], float(distance[2]))
-    return _SIDES.get(entry.value)
+    return _touches if entry.value in _TOUCHING else _SIDES.get(entry.value)
+
+
+def _touches(robot: Pose, landmark: Entity, xy_m: Places) -> Mask:
+    """On it, in it or against it, by its footprint."""
+    away_m = distances_m((landmark.pose.x_m, landmark.pose.y_m), xy_m)
+    return (away_m > 0) & (away_m <= max(landmark.size_m[:2]) / 2 + _TOUCHING_M)
 
 
 def _at_distance(comparison: str, distance_m: float) -> Holds:
-    def holds(robot: Pose, landmark: Pose, xy_m: Places) -> Mask:
-        away_m = distances_m((landmark.x_m, landmark.y_m), xy_m)
+    def holds(robot: Pose, landmark: Entity, xy_m: Places) -> Mask:
+        away_m = distances_m((landmark.pose.x_m, landmark.pose.y_m), xy_m)
         return (away_m > 0) & (away_m <= distance_m) if comparison == "<=" else away_m > distance_m
 
     return holds
@@ -93,16 +99,19 @@ def _at_distance(comparison: str, distance_m: float) -> Holds:
 def _on_side(direction_rad: float, frame: Frame) -> Holds:
     """Within a cone around a direction from the landmark, in one of the frames."""
 
-    def holds(robot: Pose, landmark: Pose, xy_m: Places) -> Mask:
-        yaw_rad = _FRAME_YAW[frame](robot, landmark) + direction_rad
-        local = local_m(Pose(landmark.x_m, landmark.y_m, yaw_rad), xy_m)
+    def holds(robot: Pose, landmark: Entity, xy_m: Places) -> Mask:
+        yaw_rad = _FRAME_YAW[frame](robot, landmark.pose) + direction_rad
+        local = local_m(Pose(landmark.pose.x_m, landmark.pose.y_m, yaw_rad), xy_m)
         return (local[:, 0] > 0) & (np.abs(np.arctan2(local[:, 1], local[:, 0])) <= _HALF_CONE_RAD)
 
     return holds
 
 
 _FRAME_YAW: Mapping[Frame, Callable[[Pose, Pose], float]] = {
-    Frame.VIEWER: lambda robot, landmark: robot.point.bearing_to(landmark.point),
+    # The robot's own left is seen along its heading.
+    Frame.VIEWER: lambda robot, landmark: (
+        robot.yaw_rad if robot.point == landmark.point else robot.point.bearing_to(landmark.point)
+    ),
     Frame.OWN: lambda robot, landmark: landmark.yaw_rad,
     Frame.MAP: lambda robot, landmark: 0.0,
 }
@@ -115,6 +124,8 @@ _SIDES: Mapping[str, Holds] = {
     **{f"cardinal.{name}": _on_side(yaw_rad, Frame.MAP) for name, yaw_rad in COMPASS_RAD.items()},
 }
 BETWEEN = "projective.between"
+_TOUCHING = frozenset({"RCC8.EC", "RCC8.NTPP"})
+_TOUCHING_M = 0.3  # half of a small thing, and what its place is off
 
 
 def between(first: Pose, second: Pose, xy_m: Places) -> Mask:

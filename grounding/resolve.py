@@ -9,37 +9,14 @@ from grammar.forms import Form, Name, Term
 from robot.geometry import Point
 from voxml.vocabulary import Lexicon
 
-from .descriptions import (
-    INDEFINITE,
-    LAST,
-    ORDINALS,
-    PLURAL,
-    Description,
-    attachments,
-    describe,
-    number_of,
-)
-from .entities import FIDUCIAL, NO_ROWS, Entity, Mask, Rows
+from .descriptions import EXCLUDING, INDEFINITE, PLURAL, Description, attachments, describe
+from .entities import NO_ROWS, Entity, Rows
+from .ordering import counted_from, pick
 from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
 from .pointing import likely_rows, pointed_place, pointed_ray, read_point
-from .relations import (
-    BETWEEN,
-    COMPASS_RAD,
-    REGIONS,
-    between,
-    distances_m,
-    local_m,
-    meeting_key_m,
-    relation,
-)
+from .relations import COMPASS_RAD, distances_m, meeting_key_m
+from .selecting import ONE, Failure, modified, noun_rows
 from .world import World
-
-_ANYTHING = frozenset({"one", "object", "obstacle"})
-
-
-class _Fails(Exception):  # noqa: N818 - a result that ends the evaluation early, never seen outside
-    def __init__(self, outcome: Ambiguous | Unresolved) -> None:
-        self.outcome = outcome
 
 
 def resolve(form: Form, world: World, lexicon: Lexicon) -> Resolution:
@@ -66,23 +43,32 @@ def _direct(form: Form, world: World) -> Resolution | None:
         return Grounded((place,))
     match form:
         case Name(text=name):
-            rows = world.entities.rows_by_name.get(name.lower(), NO_ROWS)
-            return _denoted(form, rows, world)
+            return _denoted(form, world.entities.rows_by_name.get(name.lower(), NO_ROWS), world)
         case Term(pred="entity", args=(Name(text=id),)):
             entity = world.entities.get(id)
             return Unresolved(Reason.NOTHING_FITS, form) if entity is None else Grounded((entity,))
-        case Term(pred="here", args=()):
-            return Grounded((world.robot.point,))
-        case Term(pred="there" | "here", args=(Term() as pointing,)):
-            return _pointed_at(form, pointing, world)
-        case Term(pred="there"):
-            return Unresolved(Reason.NEEDS_POINTING, form)
-        case Term(pred="it"):
-            return Unresolved(Reason.NO_ANTECEDENT, form)
         case Term(pred="this" | "that", args=(Term(pred="way"), *rest)):
             return _pointed_way(form, rest, world)
-        case Term(pred=heading, args=()) if heading in COMPASS_RAD:
-            return Grounded((Heading(COMPASS_RAD[heading]),))
+        case Term(pred="there" | "here", args=(Term() as pointing,)):
+            return _pointed_at(form, pointing, world)
+        case Term(args=()):
+            return _word(form, world)
+        case _:
+            return None
+
+
+def _word(form: Term, world: World) -> Resolution | None:
+    """A place, a heading or a pronoun of one word."""
+    if form.pred in COMPASS_RAD:
+        return Grounded((Heading(COMPASS_RAD[form.pred]),))
+    match form.pred:
+        case "here" | "you":
+            return Grounded((world.robot.point,))
+        case "there":
+            return Unresolved(Reason.NEEDS_POINTING, form)
+        case "it" | "them":
+            spoken_of = tuple(filter(None, map(world.entities.get, world.focus[:1])))
+            return Grounded(spoken_of) if spoken_of else Unresolved(Reason.NO_ANTECEDENT, form)
         case _:
             return None
 
@@ -117,7 +103,7 @@ def _described(description: Description, world: World, lexicon: Lexicon) -> Reso
     for chain in attachments(description.modifiers):
         try:
             outcomes.append(_reading(description, chain, world, lexicon))
-        except _Fails as failure:
+        except Failure as failure:
             outcomes.append(failure.outcome)
     grounded = {o.referents: o for o in outcomes if isinstance(o, Grounded)}
     if len(grounded) == 1:
@@ -130,15 +116,39 @@ def _described(description: Description, world: World, lexicon: Lexicon) -> Reso
 
 
 def _reading(description: Description, chain: tuple[Term, ...], world: World, lexicon: Lexicon) -> Resolution:
-    rows = _noun_rows(description, world)
+    rows = noun_rows(description, world)
+    origin = next(filter(None, map(counted_from, chain)), None) if description.ordering else None
     for modifier in chain:
-        rows = _modified(modifier, rows, world, lexicon)
+        if origin is None or counted_from(modifier) is None:
+            rows = modified(modifier, rows, world, lexicon, lambda form: resolve(form, world, lexicon))
+    if description.determiner in EXCLUDING and world.focus:
+        rows = np.extract(rows != world.entities.index.get(world.focus[0], -1), rows)
+    if description.noun == ONE:
+        rows = _of_the_kind_spoken_of(rows, world)
     if description.ordering is not None:
-        rows = _ordered(description, rows, world)
+        assert isinstance(description.form, Term)
+        picked = pick(description.form, description.ordering, origin, rows, world)
+        if isinstance(picked, Unresolved):
+            return picked
+        rows = picked
+    return _determined(description, rows, world)
+
+
+def _of_the_kind_spoken_of(rows: Rows, world: World) -> Rows:
+    """ "The blue one", after a block was spoken of, is a block where one fits."""
+    spoken_of = world.entities.get(world.focus[0]) if world.focus else None
+    if spoken_of is None or len(rows) < 2:
+        return rows
+    of_kind = np.intersect1d(rows, world.entities.rows_by_type[spoken_of.type], assume_unique=True)
+    return of_kind if len(of_kind) else rows
+
+
+def _determined(description: Description, rows: Rows, world: World) -> Resolution:
+    """What is meant of the things that fit, by the determiner."""
     if description.pointing is not None:
         rows = likely_rows(description.pointing, world.entities, rows)
         return _denoted(description.form, rows, world, Reason.POINTED_ELSEWHERE)
-    if description.determiner in PLURAL:
+    if description.plural or description.determiner in PLURAL:
         return _plural(description, rows, world)
     if description.determiner in INDEFINITE and len(rows):
         rows = rows[[np.argmin(_away_m(world, rows))]]
@@ -166,88 +176,3 @@ def _plural(description: Description, rows: Rows, world: World) -> Resolution:
 
 def _away_m(world: World, rows: Rows) -> NDArray[np.float64]:
     return distances_m((world.robot.x_m, world.robot.y_m), world.entities.xy_m[rows])
-
-
-def _noun_rows(description: Description, world: World) -> Rows:
-    entities, noun = world.entities, description.noun
-    if noun in _ANYTHING:
-        rows = entities.all_rows
-    elif noun == FIDUCIAL:
-        rows = entities.fiducial_rows
-    else:
-        rows = entities.rows_by_type.get(noun, NO_ROWS)
-    for attribute in description.adjectives:
-        rows = np.intersect1d(rows, entities.rows_by_attribute.get(attribute, NO_ROWS), assume_unique=True)
-    return rows
-
-
-def _ordered(description: Description, rows: Rows, world: World) -> Rows:
-    """The one that an ordinal or superlative picks out of ``rows``; none where there is nothing to pick from."""
-    if not len(rows):
-        return rows
-    ordering = description.ordering
-    if ordering in ("nearest", "closest"):
-        return rows[[np.argmin(_away_m(world, rows))]]
-    if ordering in ("farthest", "furthest"):
-        return rows[[np.argmax(_away_m(world, rows))]]
-    key_m = meeting_key_m(world.robot, world.entities.xy_m[rows])
-    if ordering == LAST:
-        # The last one ahead: what lies behind was passed already, unless there is nothing else.
-        ahead = local_m(world.robot, world.entities.xy_m[rows])[:, 0] >= 0
-        return rows[[np.argmax(np.where(ahead, key_m, -1.0) if ahead.any() else key_m)]]
-    rank = ORDINALS.get(ordering or "", 1)
-    if rank > len(rows):
-        raise _Fails(Unresolved(Reason.TOO_FEW, description.form, len(rows)))
-    return rows[np.argpartition(key_m, rank - 1)[[rank - 1]]]
-
-
-def _modified(modifier: Term, rows: Rows, world: World, lexicon: Lexicon) -> Rows:
-    """Those of ``rows`` of which a modifier holds.
-
-    Raises:
-        _Fails: its landmark denotes nothing, or the modifier means nothing here.
-    """
-    number = number_of(modifier)
-    if number is not None:
-        return np.extract(rows == world.entities.rows_by_fiducial.get(number, -1), rows)
-    xy_m = world.entities.xy_m[rows]
-    region = _region(modifier)
-    if region is not None:
-        return np.extract(REGIONS[region](local_m(world.robot, xy_m)), rows)
-    entry = lexicon.relations.get(modifier.pred)
-    if entry is not None and entry.value == BETWEEN and len(modifier.args) == 2:
-        firsts, seconds = (_landmarks(arg, world, lexicon) for arg in modifier.args)
-        pairs = [(a, b) for a in firsts for b in seconds if a.id != b.id]
-        return _where_any([between(a.pose, b.pose, xy_m) for a, b in pairs], rows)
-    holds = None if entry is None else relation(entry)
-    if holds is None or len(modifier.args) != 1:
-        raise _Fails(Unresolved(Reason.NOT_A_PLACE, modifier))
-    landmarks = _landmarks(modifier.args[0], world, lexicon)
-    return _where_any([holds(world.robot, landmark.pose, xy_m) for landmark in landmarks], rows)
-
-
-def _region(modifier: Term) -> str | None:
-    """The part of the robot's view in ``on(right)``, ``on(the(right))`` or ``ahead``."""
-    if not modifier.args:
-        return modifier.pred if modifier.pred in REGIONS else None
-    if modifier.pred not in ("on", "to", "at", "in", "from") or len(modifier.args) != 1:
-        return None
-    part = modifier.args[0]
-    while isinstance(part, Term) and len(part.args) == 1:
-        part = part.args[0]
-    return part.pred if isinstance(part, Term) and not part.args and part.pred in REGIONS else None
-
-
-def _landmarks(form: Form, world: World, lexicon: Lexicon) -> tuple[Entity, ...]:
-    """Everything a landmark's noun phrase may mean: the whole description tells which, so none is asked about."""
-    match resolve(form, world, lexicon):
-        case Grounded(referents):
-            return tuple(r for r in referents if isinstance(r, Entity))
-        case Ambiguous(_, candidates):
-            return candidates
-        case Unresolved() as failure:
-            raise _Fails(failure)
-
-
-def _where_any(masks: list[Mask], rows: Rows) -> Rows:
-    return np.extract(np.logical_or.reduce(masks), rows) if masks else NO_ROWS

@@ -10,6 +10,7 @@ from voxml.scene import Scene, SceneObject
 
 from .entities import FIDUCIAL, Entities, Entity, StandsFor
 
+FOCUS_MAX = 8
 _NOTHING = Entities()
 
 
@@ -18,12 +19,14 @@ class World:
     """Where the robot is, the walls and things it has met, and what each fiducial stands for (seen or not yet).
 
     Nothing is in ``entities`` before its fiducial was seen: a world's file tells what a marker means, not where it is.
+    ``focus`` are the things spoken of, by id, the latest first: what "it" and "the other one" lean on.
     """
 
     robot: Pose = ORIGIN
     entities: Entities = _NOTHING
     walls: tuple[Segment, ...] = ()
     catalogue: tuple[StandsFor, ...] = ()
+    focus: tuple[str, ...] = ()
 
     @classmethod
     def unexplored(cls, scene: Scene) -> World:
@@ -67,6 +70,11 @@ class World:
             for e in self.entities.items
         )
         return replace(self, entities=Entities(items), catalogue=(*others, meaning))
+
+    def speaking_of(self, ids: tuple[str, ...]) -> World:
+        """The same world with these things in focus, before those that were."""
+        before = tuple(known for known in self.focus if known not in ids)
+        return replace(self, focus=(*ids, *before)[:FOCUS_MAX])
 
     def only(self, ids: tuple[str, ...]) -> World:
         """The same world with no other things than these, in this order."""

@@ -61,6 +61,14 @@ def ids(outcome: Resolution) -> list[str]:
         ("the(box,near(the(blue(block))))", "4"),
         ("the(one,between(the(red(block)),the(green(box))))", "3"),
         ('entity("5")', "5"),
+        ("the(leftmost(block))", "2"),
+        ("the(rightmost(box))", "5"),
+        ("the(second(fiducial,from(left)))", "4"),
+        ("the(first(fiducial,from(right)))", "1"),
+        ("the(first(block,from(the(end))))", "2"),
+        ("the(next(fiducial))", "1"),
+        ("the(left(block))", "2"),
+        ("the(yellow(one))", "4"),
     ],
 )
 def test_a_description_that_fits_one_thing_means_it(form: str, id: str) -> None:
@@ -117,6 +125,39 @@ def test_headings_are_the_maps(name: str, yaw_deg: float) -> None:
 def test_plurals_mean_every_one_nearest_first() -> None:
     assert ids(meant("all(block)")) == ["1", "2"]
     assert ids(meant("both(box)")) == ["4", "5"]
+
+
+def test_pronouns_lean_on_what_was_spoken_of() -> None:
+    spoken = CORRIDOR.speaking_of(("1",))
+    assert ids(meant("it", spoken)) == ["1"]
+    assert ids(meant("the(other(block))", spoken)) == ["2"]
+    assert ids(meant("another(block)", spoken)) == ["2"]
+    assert ids(meant("the(other(one))", spoken)) == ["2"]
+    assert ids(meant("the(one,on(left))", spoken)) == ["2"]
+
+
+def test_sizes_are_compared_and_equals_are_asked_about() -> None:
+    sizes = {"a": (0.2, 0.2, 0.9), "b": (0.5, 0.5, 0.5), "c": (0.5, 0.5, 0.5)}
+    world = World(ORIGIN, Entities(tuple(Entity(n, "box", Pose(2.0, 1.0, 0.0), size_m=s) for n, s in sizes.items())))
+    assert ids(meant("the(tallest(box))", world)) == ["a"]
+    assert ids(meant("the(smallest(box))", world)) == ["a"]
+    outcome = meant("the(largest(box))", world)
+    assert isinstance(outcome, Ambiguous)
+    assert ids(outcome) == ["b", "c"]
+
+
+def test_the_middle_one_is_counted_across_the_view() -> None:
+    row = World(ORIGIN, Entities(tuple(thing(n, "box", 2.0, y) for n, y in (("a", 1.0), ("b", -1.0), ("c", 0.1)))))
+    assert ids(meant("the(middle(box))", row)) == ["c"]
+
+
+def test_the_robots_own_sides_are_landmarks() -> None:
+    beside = World(
+        ORIGIN, Entities((thing("l", "box", 0.0, 1.0), thing("f", "box", 1.0, 0.0), thing("b", "box", -1, 0)))
+    )
+    assert ids(meant("the(box,left_of(you))", beside)) == ["l"]
+    assert ids(meant("the(box,in_front_of(you))", beside)) == ["f"]
+    assert ids(meant("the(box,behind(you))", beside)) == ["b"]
 
 
 # ------------------------------------------------------------------ attachment

@@ -1,0 +1,136 @@
+"""Ordinals and superlatives: which of the things that fit is the second from the left, the nearest, the other one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from grammar.forms import Term
+
+from .entities import NO_ROWS, Rows
+from .outcomes import Reason, Unresolved
+from .relations import distances_m, local_m, meeting_key_m
+from .world import World
+
+ORDINALS = {
+    name: rank
+    for rank, name in enumerate(
+        ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"), start=1
+    )
+}
+_HERE_M = 0.6  # a thing this near is where the robot is, so it is not the next one
+
+Keys = NDArray[np.float64]  # shape (rows,)
+
+
+def _away_m(world: World, rows: Rows) -> Keys:
+    return distances_m((world.robot.x_m, world.robot.y_m), world.entities.xy_m[rows])
+
+
+def _from_left(world: World, rows: Rows) -> Keys:
+    """Smaller is further left, as the robot sees it: by bearing, not by distance from its heading line."""
+    local = local_m(world.robot, world.entities.xy_m[rows])
+    return -np.arctan2(local[:, 1], local[:, 0])
+
+
+def _met(world: World, rows: Rows) -> Keys:
+    return meeting_key_m(world.robot, world.entities.xy_m[rows])
+
+
+def _size(axis: int) -> Callable[[World, Rows], Keys]:
+    return lambda world, rows: world.entities.size_m[rows, axis]
+
+
+def _volume(world: World, rows: Rows) -> Keys:
+    volume: Keys = np.prod(world.entities.size_m[rows], axis=1)
+    return volume
+
+
+def _opposite(key: Callable[[World, Rows], Keys]) -> Callable[[World, Rows], Keys]:
+    return lambda world, rows: -key(world, rows)
+
+
+EXTREMES: Mapping[str, Callable[[World, Rows], Keys]] = {
+    "nearest": _away_m,
+    "farthest": _opposite(_away_m),
+    "leftmost": _from_left,
+    "rightmost": _opposite(_from_left),
+    "largest": _opposite(_volume),
+    "smallest": _volume,
+    "tallest": _opposite(_size(2)),
+    "shortest": _size(2),
+    "widest": _opposite(_size(1)),
+    "narrowest": _size(1),
+    "longest": _opposite(_size(0)),
+}
+"""Superlatives, each by a key of which the smallest is meant."""
+
+_COUNTED_FROM: Mapping[str, Callable[[World, Rows], Keys]] = {
+    "left": _from_left,
+    "right": _opposite(_from_left),
+    "end": _opposite(_met),
+    "back": _opposite(_met),
+}
+_CHOICES = frozenset({"last", "next", "previous", "middle", "only", "other", "same"})
+ORDERINGS = frozenset(ORDINALS) | frozenset(EXTREMES) | _CHOICES
+
+
+def counted_from(modifier: Term) -> str | None:
+    """Where counting begins in ``from(left)`` or ``from(the(end))``; None for any other modifier."""
+    if modifier.pred != "from" or len(modifier.args) != 1:
+        return None
+    origin = modifier.args[0]
+    while isinstance(origin, Term) and len(origin.args) == 1:
+        origin = origin.args[0]
+    return origin.pred if isinstance(origin, Term) and origin.pred in _COUNTED_FROM else None
+
+
+def pick(form: Term, ordering: str, origin: str | None, rows: Rows, world: World) -> Rows | Unresolved:
+    """Those of ``rows`` that the ordering picks: one, or several where they are equally so, or none.
+
+    ``origin`` is where counting begins: the robot's way along its heading unless it is said. ``form`` is the whole noun
+    phrase.
+    """
+    if not len(rows):
+        return rows if ordering not in ORDINALS else Unresolved(Reason.TOO_FEW, form, 0)
+    if ordering in EXTREMES:
+        key = EXTREMES[ordering](world, rows)
+        return np.extract(key <= key.min() + 1e-6, rows)
+    key = (_COUNTED_FROM[origin] if origin else _met)(world, rows)
+    rank = ORDINALS.get(ordering)
+    if rank is None:
+        return _chosen(ordering, origin, key, rows, world)
+    if rank > len(rows):
+        return Unresolved(Reason.TOO_FEW, form, len(rows))
+    return rows[np.argpartition(key, rank - 1)[[rank - 1]]]
+
+
+def _chosen(ordering: str, origin: str | None, key: Keys, rows: Rows, world: World) -> Rows:
+    ahead_m = local_m(world.robot, world.entities.xy_m[rows])[:, 0]
+    match ordering:
+        case "last" if origin is None and (ahead_m >= 0).any():
+            # The last one ahead: what lies behind was passed already, unless there is nothing else.
+            return rows[[np.argmax(np.where(ahead_m >= 0, key, -1.0))]]
+        case "last":
+            return rows[[np.argmax(key)]]
+        case "next":
+            coming = np.extract((ahead_m >= 0) & (_away_m(world, rows) > _HERE_M), rows)
+            return coming[[np.argmin(_met(world, coming))]] if len(coming) else NO_ROWS
+        case "previous":
+            passed = np.extract((ahead_m < 0) & (_away_m(world, rows) > _HERE_M), rows)
+            return passed[[np.argmin(_away_m(world, passed))]] if len(passed) else NO_ROWS
+        case "middle":
+            across = rows[np.argsort(_from_left(world, rows), kind="stable")]
+            return across[(len(across) - 1) // 2 : len(across) // 2 + 1]
+        case "other":
+            return np.extract(rows != _focus_row(world), rows)
+        case "same":
+            return np.extract(rows == _focus_row(world), rows)
+        case _:
+            return rows
+
+
+def _focus_row(world: World) -> int:
+    return world.entities.index.get(world.focus[0], -1) if world.focus else -1
