@@ -124,7 +124,7 @@ def not_understood(text: str, failure: NotUnderstood) -> str:
     said = f"I didn't understand '{text[begin:end]}'" if text[begin:end].strip() else "I didn't understand"
     more = len(failure.expected) - _EXPECTED_MAX
     expected = list(failure.expected[:_EXPECTED_MAX]) + ([f"{more} more"] if more > 0 else [])
-    hint = f": I expected {listed(expected)}" if expected else ""
+    hint = f": I expected {listed(expected).rstrip(' .')}" if expected else ""
     nearest = f" Did you mean '{failure.nearest}'?" if failure.nearest else ""
     return f"{said}{hint}.{nearest}"
 

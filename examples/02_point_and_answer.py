@@ -1,12 +1,14 @@
 """Pointing, a question and its answer, and a conversation that is put away and taken up again."""
 
+import math
+
 from kirby import Agent, Dispatch, Entities, Entity, Point, Pose, Say, World, encode_command
 
 world = World(
     entities=Entities(
         (
-            Entity("1", "block", Pose(2.0, -1.0, 3.14), ("red",)),
-            Entity("2", "block", Pose(3.0, 1.0, 3.14), ("blue",)),
+            Entity("1", "block", Pose(2.0, -1.0, math.pi), ("red",)),
+            Entity("2", "block", Pose(3.0, 1.0, math.pi), ("blue",)),
         )
     )
 )

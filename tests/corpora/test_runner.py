@@ -19,8 +19,8 @@ def run_text(folder: Path, text: str, known: str = "") -> Report:
     return run([path])
 
 
-def test_kirbys_own_corpora_pass() -> None:
-    report = run()
+def test_the_corpora_of_commands_reference_and_dialogue_pass() -> None:
+    report = run(path for path in default_corpora() if path.parent == FOLDER)
     assert report.ok, report_text(report)
     cases = sum("dialogues" not in result.source for result in report.results)
     assert cases >= 150
