@@ -18,33 +18,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from robot.geometry import Point, Pose
+from robot.geometry import Pose
 from robot.mapping import Mapper
 from robot.messages import FeedbackCode
 from voxml.scene import Scene
 
+from ._course import Course, Task
 from ._drive import WORLDS, Driver, driver, progress, world
-from ._truth import ROBOT_RADIUS_M, Faces, Ways, laser_scan
+from ._truth import Faces, laser_scan
 
-EASY_M = 0.08  # a circle so much larger than the robot still gets to a goal that counts as reachable
-TIGHT_M = 0.04  # and one so much smaller does not come near one that counts as unreachable
-NEAR_M = 0.40  # the robot may take a place up to 0.3 m from a goal inside something; and a cell of its map
 THERE_M = 0.10  # from the goal to where the robot truly stands when it says that it is there
 SHORTEST_M = 1.0
-UNREACHABLE_SHARE = 1 / 3
 LIMIT_S = 900.0
-SURVEY_M = 1.2  # between the places from which a known map is made
 SURVEY_SCANS = 4
 NO_WAY = {FeedbackCode.UNREACHABLE, FeedbackCode.STRAYED}
-
-
-@dataclass(frozen=True, slots=True)
-class Task:
-    """A goal, where it is asked for, and whether it can be reached."""
-
-    start: Pose
-    goal: Point
-    reachable: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,43 +99,6 @@ def _try(drive: Driver, course: Course, task: Task, known: bool) -> Result:
         shortest_m = course.ways.length_m(begun.point, here.point)
         ratio = trip.driven_m / shortest_m if SHORTEST_M <= shortest_m < math.inf else None
     return Result(task, known, right, trip.seconds, ratio, len(drive.body.contacts()) - before)
-
-
-class Course:
-    """Draws starts and goals in a scene; what can be reached is settled by geometry."""
-
-    def __init__(self, scene: Scene, chance: random.Random) -> None:
-        self.ways = Ways(scene, ROBOT_RADIUS_M)
-        self._chance = chance
-        home = Point(scene.start.x_m, scene.start.y_m)
-        self._easy = self.ways.reach(home, ROBOT_RADIUS_M + EASY_M)
-        self._possible = self.ways.reach(home, ROBOT_RADIUS_M - TIGHT_M)
-        self._bounds = self.ways.solid.bounds
-
-    def anywhere(self) -> Pose:
-        """A place from which everything reachable can be reached, facing any way."""
-        while True:
-            place = self._point()
-            if self._easy(place) == 0.0:
-                return Pose(place.x_m, place.y_m, self._chance.uniform(-math.pi, math.pi))
-
-    def task(self, start: Pose) -> Task:
-        """A goal that certainly can or certainly cannot be reached from ``start``."""
-        reachable = self._chance.random() >= UNREACHABLE_SHARE
-        while True:
-            goal = self._point()
-            if self._easy(goal) == 0.0 if reachable else self._possible(goal) > NEAR_M:
-                return Task(start, goal, reachable)
-
-    def places(self) -> list[Point]:
-        """A lattice over the free ground."""
-        left, bottom, right, top = self._bounds
-        spots = [Point(x, y) for x in np.arange(left, right, SURVEY_M) for y in np.arange(bottom, top, SURVEY_M)]
-        return [spot for spot in spots if self._easy(spot) == 0.0]
-
-    def _point(self) -> Point:
-        left, bottom, right, top = self._bounds
-        return Point(self._chance.uniform(left, right), self._chance.uniform(bottom, top))
 
 
 def survey(mapper: Mapper, scene: Scene, course: Course) -> None:

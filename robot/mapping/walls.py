@@ -24,13 +24,14 @@ OFFSET_GATE_M = 0.06
 ANGLE_GATE_RAD = math.radians(8.0)
 LOOSEST_ANGLE_GATE_RAD = math.radians(25.0)
 GAP_GATE_M = 0.2
-HASH_CELL_M = 1.5
-HASH_STEP_M = 0.5
-# Two segments that may merge have samples within gap + offset + two half steps of each other; less than one cell.
-HASH_REACH_M = GAP_GATE_M + OFFSET_GATE_M + HASH_STEP_M
+HASH_CELL_M = 1.0
+HASH_PIECE_M = 2.0  # a wall is registered by the boxes around pieces of it, so that a long slanting one fills few cells
+HASH_REACH_M = GAP_GATE_M + OFFSET_GATE_M  # two segments that may merge have points that near to each other
 GONE_LOG_ODDS = -0.5
 GONE_STEP_M = 0.05
 SHORTEST_M = 0.1
+
+Cell = tuple[int, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,17 +112,21 @@ def mismatch_m(first: Wall, second: Wall, sided: bool) -> float | None:
     ``sided``: opposite directions are the two faces of a wall and stay apart.
     """
     long, short = (first, second) if first.length_m >= second.length_m else (second, first)
-    turned_rad = short.direction_rad - long.direction_rad
-    turned_rad = wrap_angle(turned_rad) if sided else half_circle(turned_rad)
+    raw_rad = short.direction_rad - long.direction_rad
+    turned_rad = wrap_angle(raw_rad) if sided else half_circle(raw_rad)
     # The shorter a segment, the less its direction says.
-    gate_rad = math.atan2(OFFSET_GATE_M, max(short.length_m, 1e-3))
-    if abs(turned_rad) > min(max(ANGLE_GATE_RAD, gate_rad), LOOSEST_ANGLE_GATE_RAD):
+    if abs(turned_rad) > ANGLE_GATE_RAD:
+        gate_rad = math.atan2(OFFSET_GATE_M, max(short.length_m, 1e-3))
+        if abs(turned_rad) > min(gate_rad, LOOSEST_ANGLE_GATE_RAD):
+            return None
+    along_m, off_m = long.project(short.centre)
+    c, s = math.cos(raw_rad), math.sin(raw_rad)
+    offset_m = max(abs(off_m + s * short.first_m), abs(off_m + s * short.last_m))
+    if offset_m > OFFSET_GATE_M:
         return None
-    along_1, off_1 = long.project(short.start)
-    along_2, off_2 = long.project(short.end)
-    gap_m = max(min(along_1, along_2) - long.last_m, long.first_m - max(along_1, along_2))
-    offset_m = max(abs(off_1), abs(off_2))
-    return offset_m if gap_m <= GAP_GATE_M and offset_m <= OFFSET_GATE_M else None
+    ends_m = along_m + c * short.first_m, along_m + c * short.last_m
+    gap_m = max(min(ends_m) - long.last_m, long.first_m - max(ends_m))
+    return offset_m if gap_m <= GAP_GATE_M else None
 
 
 class WallMap:
@@ -130,7 +135,7 @@ class WallMap:
     def __init__(self, sided: bool = True) -> None:
         self._sided = sided
         self._walls: dict[int, Wall] = {}
-        self._hash: dict[tuple[int, int], dict[int, None]] = {}
+        self._hash: dict[Cell, dict[int, None]] = {}
         self._next_id = 0
         self.revision = 0
 
@@ -210,19 +215,25 @@ def merge_segments(segments: Iterable[Segment]) -> tuple[Segment, ...]:
     return tuple(wall.segment for wall in walls)
 
 
-def _cells(wall: Wall, reach_m: float) -> dict[tuple[int, int], None]:
-    """The hash cells within ``reach_m`` of samples along the wall, in order."""
-    count = math.ceil(wall.length_m / HASH_STEP_M) + 1
-    step_m = wall.length_m / max(count - 1, 1)
+def _cells(wall: Wall, reach_m: float) -> tuple[Cell, ...]:
+    """The hash cells within ``reach_m`` of the boxes around the wall's pieces, in order."""
+    count = math.ceil(wall.length_m / HASH_PIECE_M) or 1
     c, s = math.cos(wall.direction_rad), math.sin(wall.direction_rad)
-    found: dict[tuple[int, int], None] = {}
-    corners = ((-reach_m, -reach_m), (-reach_m, reach_m), (reach_m, -reach_m), (reach_m, reach_m))
+    step_m = wall.length_m / count
+    found: dict[Cell, None] = {}
     for number in range(count):
-        along_m = wall.first_m + number * step_m
-        x_m, y_m = wall.centre.x_m + along_m * c, wall.centre.y_m + along_m * s
-        for dx_m, dy_m in corners if reach_m else corners[:1]:
-            found[math.floor((x_m + dx_m) / HASH_CELL_M), math.floor((y_m + dy_m) / HASH_CELL_M)] = None
-    return found
+        first_m = wall.first_m + number * step_m
+        last_m = first_m + step_m
+        left, right = _span(wall.centre.x_m + first_m * c, wall.centre.x_m + last_m * c, reach_m)
+        bottom, top = _span(wall.centre.y_m + first_m * s, wall.centre.y_m + last_m * s, reach_m)
+        found.update(dict.fromkeys((x, y) for x in range(left, right + 1) for y in range(bottom, top + 1)))
+    return tuple(found)
+
+
+def _span(first_m: float, last_m: float, reach_m: float) -> tuple[int, int]:
+    """The first and the last cell of a stretch along one axis."""
+    low_m, high_m = (first_m, last_m) if first_m < last_m else (last_m, first_m)
+    return math.floor((low_m - reach_m) / HASH_CELL_M), math.floor((high_m + reach_m) / HASH_CELL_M)
 
 
 def _standing(wall: Wall, along_m: NDArray[np.float64], gone: NDArray[np.bool_]) -> list[Wall]:

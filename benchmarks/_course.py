@@ -1,0 +1,73 @@
+"""Random starts and goals in a world; whether a goal can be reached is settled by the scene's geometry alone."""
+
+from __future__ import annotations
+
+import math
+import random
+from dataclasses import dataclass
+
+import numpy as np
+
+from robot.geometry import Point, Pose
+from voxml.scene import Scene
+
+from ._truth import ROBOT_RADIUS_M, Ways
+
+EASY_M = 0.08  # a circle so much larger than the robot still gets to a goal that counts as reachable
+TIGHT_M = 0.04  # and one so much smaller does not come near one that counts as unreachable
+NEAR_M = 0.40  # the robot may take a place up to 0.3 m from a goal inside something; and a cell of its map
+UNREACHABLE_SHARE = 1 / 3
+SURVEY_M = 1.2  # between the places from which a known map is made
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A goal, where it is asked for, and whether it can be reached."""
+
+    start: Pose
+    goal: Point
+    reachable: bool
+
+
+class Course:
+    """Draws starts and goals in a scene; what can be reached is settled by geometry."""
+
+    def __init__(self, scene: Scene, chance: random.Random) -> None:
+        self.ways = Ways(scene, ROBOT_RADIUS_M)
+        self._chance = chance
+        home = Point(scene.start.x_m, scene.start.y_m)
+        self._easy = self.ways.reach(home, ROBOT_RADIUS_M + EASY_M)
+        self._possible = self.ways.reach(home, ROBOT_RADIUS_M - TIGHT_M)
+        self._bounds = self.ways.solid.bounds
+
+    def anywhere(self) -> Pose:
+        """A place from which everything reachable can be reached, facing any way."""
+        while True:
+            place = self._point()
+            if self._easy(place) == 0.0:
+                return Pose(place.x_m, place.y_m, self._chance.uniform(-math.pi, math.pi))
+
+    def with_room_ahead(self, distance_m: float) -> Pose:
+        """A pose from which the robot can drive straight ahead by ``distance_m`` with nothing near."""
+        while True:
+            pose = self.anywhere()
+            if all(self._easy(pose.ahead(distance_m * part / 10).point) == 0.0 for part in range(11)):
+                return pose
+
+    def task(self, start: Pose) -> Task:
+        """A goal that certainly can or certainly cannot be reached from ``start``."""
+        reachable = self._chance.random() >= UNREACHABLE_SHARE
+        while True:
+            goal = self._point()
+            if self._easy(goal) == 0.0 if reachable else self._possible(goal) > NEAR_M:
+                return Task(start, goal, reachable)
+
+    def places(self) -> list[Point]:
+        """A lattice over the free ground."""
+        left, bottom, right, top = self._bounds
+        spots = [Point(x, y) for x in np.arange(left, right, SURVEY_M) for y in np.arange(bottom, top, SURVEY_M)]
+        return [spot for spot in spots if self._easy(spot) == 0.0]
+
+    def _point(self) -> Point:
+        left, bottom, right, top = self._bounds
+        return Point(self._chance.uniform(left, right), self._chance.uniform(bottom, top))
