@@ -26,6 +26,7 @@ COLOURS: Mapping[str, Colour] = {
     "brown": (139, 96, 62),
     "cyan": (64, 190, 205),
     "gray": (140, 146, 152),
+    "grey": (140, 146, 152),
     "green": (66, 160, 90),
     "magenta": (205, 70, 160),
     "orange": (238, 140, 52),

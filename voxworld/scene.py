@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping
 from dataclasses import asdict
 from functools import lru_cache
@@ -25,6 +26,7 @@ FIDUCIAL_SIZE_M = (0.14, 0.14, 0.22)
 POINTED_RADIUS_M = 0.15
 MEANT_RADIUS_M = 0.20
 RAY_M = 1.5
+SIDE_MARGIN_M = 0.10
 LINE_HEIGHT_M = 0.012
 TRAIL_CHUNK = 64  # points a line: only the newest line grows
 
@@ -33,7 +35,7 @@ Heads = Mapping[str, str]  # type of thing -> its VoxML head
 
 def scene_of(shared: Shared, heads: Heads) -> Scene:
     """Everything there is to see. ``heads`` tells the shape of each type of thing, from its lexicon entry."""
-    nodes: list[Node] = [_floor(shared.explored), *_walls(shared.walls)]
+    nodes: list[Node] = [_floor(shared.explored), *_walls(shared.walls, shared.entities)]
     nodes += (_thing(entity, heads, entity.id in shared.meant.entities) for entity in shared.entities)
     nodes += _trail(shared.trail)
     if len(shared.path) > 1:
@@ -77,9 +79,34 @@ def _floor(explored: Explored) -> Floor:
 
 
 @lru_cache(maxsize=4)
-def _walls(walls: Walls) -> tuple[Wall, ...]:
+def _walls(walls: Walls, entities: tuple[Entity, ...]) -> tuple[Wall, ...]:
+    """The walls, but for the sides of things: the laser sees those too, and they would hide the thing itself."""
     named = zip(walls.ids, walls.segments, strict=True)
-    return tuple(_wall(name, segment) for name, segment in named if segment.length_m > 0)
+    return tuple(
+        _wall(name, segment)
+        for name, segment in named
+        if segment.length_m > 0 and not any(_is_side(segment, entity) for entity in entities)
+    )
+
+
+def _is_side(segment: Segment, thing: Entity) -> bool:
+    """Whether the segment lies within the thing's footprint, as well as laser and camera know it."""
+    length_m, width_m, _ = thing.size_m
+    reach_m = math.hypot(length_m, width_m) + SIDE_MARGIN_M
+    if (
+        segment.length_m > reach_m + SIDE_MARGIN_M
+        or abs(segment.start.x_m - thing.pose.x_m) > reach_m
+        or abs(segment.start.y_m - thing.pose.y_m) > reach_m
+    ):
+        return False
+    for end in (segment.start, segment.end):
+        place = thing.pose.to_local(end)
+        behind_m = -length_m if thing.fiducial_id is not None else -length_m / 2
+        if not behind_m - SIDE_MARGIN_M <= place.x_m <= behind_m + length_m + SIDE_MARGIN_M:
+            return False
+        if abs(place.y_m) > width_m / 2 + SIDE_MARGIN_M:
+            return False
+    return True
 
 
 @lru_cache(maxsize=8192)

@@ -59,13 +59,13 @@ _KIRBY_COLOURS = {
 def conversation_html(remarks: tuple[Remark, ...]) -> str:
     """The newest remarks, the latest at the bottom and in view.
 
-    A column that is laid out from its end keeps that end in view without a script.
+    A box that is laid out from its end keeps that end in view without a script.
     """
-    rows = "".join(map(_remark_html, reversed(remarks[-REMARKS_MAX:])))
+    rows = "".join(map(_remark_html, remarks[-REMARKS_MAX:]))
     return (
-        '<div id="kirby-conversation" role="log" style="display:flex;flex-direction:column-reverse;height:300px;'
-        'overflow-y:auto;gap:6px;padding:8px;font:14px/1.35 system-ui,sans-serif">'
-        f"{rows}</div>"
+        '<div style="display:flex;flex-direction:column-reverse;height:300px;overflow-y:auto;padding:8px">'
+        '<div id="kirby-conversation" role="log" style="display:flex;flex-direction:column;gap:6px;'
+        f'font:14px/1.35 system-ui,sans-serif">{rows}</div></div>'
     )
 
 

@@ -25,7 +25,7 @@ from .nodes import Scene, Thing, diff
 from .panel import OwnPanel, SharedPanel
 from .people import NAME_KEY, Person, fit_name
 from .scene import Heads, scene_of, to_json
-from .shared import Shared
+from .shared import Pointed, Shared
 from .stage import Stage
 from .talk import REMARKS_MAX, Condition, Errand, Remark
 
@@ -183,6 +183,11 @@ class VoxWorld:
         """Who is here, in the order in which they came."""
         with self._lock:
             return tuple(person for person, _ in self._people.values())
+
+    @property
+    def pointed(self) -> tuple[Pointed, ...]:
+        """What everybody pointed at last."""
+        return self._shared.pointed
 
     @property
     def watching(self) -> bool:

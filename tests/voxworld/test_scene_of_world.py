@@ -57,6 +57,16 @@ def test_names_and_shapes_come_from_the_world_and_the_lexicon() -> None:
     assert (basket.shape, basket.label) == (Shape.CYLINDROID, "Binny (2)")
 
 
+def test_the_sides_of_a_thing_are_not_walls_as_well() -> None:
+    explored = World.explored(read_scene(HALL))
+    side = Segment(Point(1.98, -0.16), Point(2.01, 0.15))  # the block's front, as the laser has it
+    past = Segment(Point(1.98, -0.16), Point(2.01, 0.75))  # a wall that begins there
+    for segment, shown in ((side, 0), (past, 1)):
+        world = World(entities=explored.entities, walls=(segment,))
+        nodes = scene_of(Shared().with_world(world), HEADS).nodes
+        assert sum(isinstance(node, Wall) for node in nodes) == shown
+
+
 def test_the_robot_looks_where_it_drives() -> None:
     robot = seen(hall().with_pose(Pose(1.0, 0.5, math.pi / 2)))["robot"]
     assert isinstance(robot, Avatar)
