@@ -1,4 +1,4 @@
-"""English in, logical forms out. The grammar never sees the world: the same text means the same wherever the robot is."""
+"""English in, logical forms out. The grammar never sees the world: a text means the same wherever the robot is."""
 
 from __future__ import annotations
 

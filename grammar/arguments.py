@@ -124,7 +124,7 @@ class ArgumentFitter:
         types = slot.types
         match arg.kind, arg.form:
             case Kind.QUANTITY, form:
-                return form if _unit_type(form) in types else None
+                return _said_in_full(form) if _unit_type(form) in types else None
             case Kind.NUMBER, Quantity(value=value):
                 unit = next((_TYPE_UNITS[kind] for kind in types if kind in _QUANTITIES), None)
                 return None if unit is None else Quantity(value, unit)
@@ -198,3 +198,8 @@ def _unit_type(form: Form) -> str:
     while isinstance(form, Term) and form.args:  # more(2m)
         form = form.args[0]
     return _UNIT_TYPES[form.unit] if isinstance(form, Quantity) else ""
+
+
+def _said_in_full(form: Form) -> Form:
+    """ "another two feet" with its verb is two feet."""
+    return form.args[0] if isinstance(form, Term) and isinstance(form.args[0], Quantity) else form

@@ -60,7 +60,8 @@ class Tables:
 def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str], Action | None]) -> Tables:
     """Compile a grammar in Lark's notation, whose terminals are declared to it, into tables.
 
-    ``actions`` gives the action for a rule's alias (or its name); a rule without one and of one symbol passes its value on.
+    ``actions`` gives the action for a rule's alias (or its name); a rule without one and of one symbol passes its
+    value on.
     """
     from lark import Lark  # imported where it is used: it is the slowest import of the room
 
@@ -75,15 +76,17 @@ def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str]
     known: dict[int, Reduction] = {}
     shifts, reductions, gotos = [], [], []
     for state in table.states:
-        rows: tuple[dict[str, int], dict[str, Reduction], dict[str, int]] = ({}, {}, {})
+        shifted: dict[str, int] = {}
+        reduced: dict[str, Reduction] = {}
+        went: dict[str, int] = {}
         for symbol, (kind, target) in table.states[state].items():
             if str(kind) == "Reduce":
-                rows[1][symbol] = known.setdefault(id(target), _reduction(target, actions))
+                reduced[symbol] = known.setdefault(id(target), _reduction(target, actions))
             else:
-                rows[0 if symbol.isupper() or symbol == END else 2][symbol] = number[target]
-        shifts.append(rows[0])
-        reductions.append(rows[1])
-        gotos.append(rows[2])
+                (shifted if symbol.isupper() or symbol == END else went)[symbol] = number[target]
+        shifts.append(shifted)
+        reductions.append(reduced)
+        gotos.append(went)
     return Tables(
         number[table.start_states["start"]],
         number[table.end_states["start"]],
@@ -129,34 +132,39 @@ class Machine:
         self, start: int, edges: Callable[[int], Sequence[Edge]], may_end: Callable[[int], bool], trace: Trace
     ) -> Iterator[tuple[Any, int]]:
         """Every sentence that begins at ``start``, with its end; the longest of the preferred reading first."""
-        tables = self._tables
-        pending: list[tuple[Node, int, int]] = [((tables.start, None, None), start, 0)]
-        while pending:
-            node, at, choice = pending.pop()
-            options = edges(at)
-            while choice < len(options):
-                edge = options[choice]
-                choice += 1
-                if edge.terminal is None:
-                    if choice < len(options) or may_end(at):
-                        pending.append((node, at, choice))
-                    at, choice, options = edge.end, 0, edges(edge.end)
-                    continue
-                following = self._shift(node, edge.terminal, edge.value, at, trace)
-                if following is None:
-                    continue
-                trace.steps += 1
-                if trace.steps > STEPS_MAX:
-                    return
-                if choice < len(options) or may_end(at):
-                    pending.append((node, at, choice))
-                node, at, choice, options = following, edge.end, 0, edges(edge.end)
-                if at > trace.furthest:
-                    trace.furthest, trace.state = at, node[0]
+        pending: list[tuple[Node, int, int]] = [((self._tables.start, None, None), start, 0)]
+        while pending and trace.steps <= STEPS_MAX:
+            node, at = self._advance(*pending.pop(), pending, edges, may_end, trace)
             if at > start and may_end(at):
                 ended = self._shift(node, END, None, at, trace)
                 if ended is not None:
                     yield ended[2][1], at
+
+    def _advance(
+        self,
+        node: Node,
+        at: int,
+        choice: int,
+        pending: list[tuple[Node, int, int]],
+        edges: Callable[[int], Sequence[Edge]],
+        may_end: Callable[[int], bool],
+        trace: Trace,
+    ) -> tuple[Node, int]:
+        """Go on by the first choices that hold, as far as they lead; what else there was to choose is left in ``pending``."""
+        options = edges(at)
+        while choice < len(options) and trace.steps <= STEPS_MAX:
+            edge = options[choice]
+            choice += 1
+            following = node if edge.terminal is None else self._shift(node, edge.terminal, edge.value, at, trace)
+            if following is None:
+                continue
+            trace.steps += 1
+            if choice < len(options) or may_end(at):
+                pending.append((node, at, choice))
+            node, at, choice, options = following, edge.end, 0, edges(edge.end)
+            if edge.terminal is not None and at > trace.furthest:
+                trace.furthest, trace.state = at, node[0]
+        return node, at
 
     def _shift(self, node: Node, terminal: str, value: Any, at: int, trace: Trace) -> Node | None:
         """Reduce as the lookahead demands, then shift; None where the state does not accept it or an action refuses."""

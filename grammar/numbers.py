@@ -41,6 +41,8 @@ class NumberReader:
         self._of = frozenset(roles.pop("of", ()))
         self._vague_counts = {word: float(value) for value, words in roles.items() for word in words}
         self._more = frozenset(closed.table("more"))
+        self._approximate = {word.words for word in closed.words_of("amount_lead")}
+        self._approximate_first = frozenset(words[0] for words in self._approximate)
         self._lengths = _units(closed)
         self._starters = frozenset(
             {*self._units, *self._multipliers, *self._fractions, *self._vague_counts}
@@ -54,13 +56,20 @@ class NumberReader:
         """Whether a number or quantity can begin with this token."""
         return token in self._starters or token[0].isdigit() or (token[0] == "." and len(token) > 1)
 
+    def is_number_word(self, token: str) -> bool:
+        """Whether the token is a number by itself or the head of one: "ten", "45", "hundred", "half"."""
+        return token in self._units or token in self._multipliers or token in self._fractions or token[0].isdigit()
+
     def is_unit(self, token: str) -> bool:
         return token in self._lengths
 
     # ------------------------------------------------------------ quantities
     def amount(self, tokens: Sequence[str], at: int) -> tuple[Amount, int] | None:
         """A number with its unit: "five feet", "another half a meter", "ten more degrees", "3 ft 2 in"."""
-        at, more = self._skip_more(tokens, at, False)
+        at, more = self._skip_more(tokens, self._skip_approximate(tokens, at), False)
+        at = self._skip_approximate(tokens, at)
+        if more:
+            at, more = self._skip_more(tokens, at, more)
         found = self._amount_number(tokens, at)
         if found is None:
             return None
@@ -76,6 +85,15 @@ class NumberReader:
             total, at = total + rest[0], rest[1]
         at, more = self._skip_more(tokens, at, more, only_plain=True)
         return Amount(Quantity(round(total, 9), quantity.unit), more), at
+
+    def _skip_approximate(self, tokens: Sequence[str], at: int) -> int:
+        """Past "about", "for", "at least", "maybe": the amount is taken as said."""
+        while at < len(tokens) and tokens[at] in self._approximate_first:
+            length = next((n for n in (2, 1) if tuple(tokens[at : at + n]) in self._approximate), 0)
+            if not length:
+                break
+            at += length
+        return at
 
     def _skip_more(self, tokens: Sequence[str], at: int, more: bool, only_plain: bool = False) -> tuple[int, bool]:
         while at < len(tokens) and tokens[at] in self._more and not (only_plain and tokens[at] not in self._more):
@@ -237,6 +255,7 @@ def _units(closed: ClosedClasses) -> dict[str, tuple[tuple[tuple[str, ...], Quan
     table: dict[str, list[tuple[tuple[str, ...], Quantity]]] = {}
     for word in closed.words_of("unit"):
         quantity = parse_form(word.text)
-        assert isinstance(quantity, Quantity) and quantity.unit is not Unit.COUNT, word
+        assert isinstance(quantity, Quantity), word
+        assert quantity.unit is not Unit.COUNT, word
         table.setdefault(word.words[0], []).append((word.words, quantity))
     return {first: tuple(sorted(found, key=lambda item: -len(item[0]))) for first, found in table.items()}

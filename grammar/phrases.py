@@ -104,6 +104,7 @@ def relation(relation_form: Form, place: Form) -> Term:
 
 
 def on_side(side: Form) -> Term:
+    """ "on your left", as a modifier."""
     return Term("on", (side,))
 
 

@@ -10,6 +10,7 @@ from voxml.terms import Form, Term
 from voxml.vocabulary import Lexicon
 
 from .acts import DialogueAct, Function, NotUnderstood
+from .disfluency import Fluency
 from .expectations import describe_expected
 from .lattice import AMOUNT_TERMINALS, Lattice, WordReader
 from .machine import Machine, Tables, Trace, build_tables
@@ -41,25 +42,23 @@ class Reader:
     def __init__(self, lexicon: Lexicon, language: str = "en") -> None:
         numbers = NumberReader(lexicon.closed)
         meaning = Meaning(lexicon)
-        vocabulary = lexicon.vocabulary()
         self._machine, self._tables = _machine(lexicon, language, meaning)
         self._words = WordReader(lexicon, numbers)
-        self._tokenizer = Tokenizer(
-            lexicon.closed, lambda word: word in vocabulary or numbers.may_start(word) or numbers.is_unit(word)
-        )
+        self._tokenizer = Tokenizer(lexicon.closed)
+        self._fluency = Fluency(lexicon, numbers)
 
     def read(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
         """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
         if len(text) > TEXT_MAX_CHARS:
             return NotUnderstood((TEXT_MAX_CHARS, len(text)), (f"at most {TEXT_MAX_CHARS} characters",))
-        tokens = self._tokenizer(text)
+        tokens, corrects = self._fluency.clean(self._tokenizer(text))
         attempt = _Attempt(tokens, Lattice(tokens, self._words), self._machine)
         clauses = attempt.clauses(0)
         if not clauses:
             return self._not_understood(text, tokens, attempt.trace)
         return tuple(
             DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end))
-            for clause in _ordered(clauses)
+            for clause in _ordered(clauses, corrects)
         )
 
     def _not_understood(self, text: str, tokens: tuple[Token, ...], trace: Trace) -> NotUnderstood:
@@ -119,18 +118,20 @@ class _Attempt:
         return at, before
 
 
-def _ordered(clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
+def _ordered(clauses: tuple[Clause, ...], corrects: bool) -> tuple[Clause, ...]:
     """What was said to come first, first; and pleasantries only where nothing else was said."""
     ordered: list[Clause] = []
     for clause in clauses:
         ordered.insert(max(len(ordered) - 1, 0) if clause.before else len(ordered), clause)
     if any(clause.function not in _SOCIAL for clause in ordered):
         ordered = [clause for clause in ordered if clause.function not in _SOCIAL]
-    return tuple(_corrected(ordered))
+    return tuple(_corrected(ordered, corrects))
 
 
-def _corrected(clauses: list[Clause]) -> list[Clause]:
+def _corrected(clauses: list[Clause], corrects: bool) -> list[Clause]:
     """ "no, turn left" corrects; "no, stop" stops."""
+    if corrects and clauses[0].function in (Function.INSTRUCT, Function.FRAGMENT) and clauses[0].form != _STOP:
+        return [replace(clauses[0], function=Function.CORRECT), *clauses[1:]]
     if len(clauses) < 2 or clauses[0].function is not Function.DENY:
         return clauses
     first, *others = clauses[1:]

@@ -25,6 +25,7 @@ def parse_head(text: str) -> Head:
 
 
 def format_head(head: Head) -> str:
+    """As it is written: ``cylindroid[1]``."""
     return head.name if head.index is None else f"{head.name}[{head.index}]"
 
 
@@ -91,6 +92,7 @@ def _conditions(text: str) -> tuple[Form, ...]:
 
 
 def format_affordance(affordance: Affordance) -> str:
+    """As it is written: ``H[2]->[go(x, to([1]))]at(x, [1])``."""
     habitat = f"H[{affordance.habitat}]" if affordance.indexed else "H"
     conditions = "".join(f",{spaced(condition)}" for condition in affordance.conditions)
     result = "" if affordance.result is None else spaced(affordance.result)
@@ -128,5 +130,6 @@ def _closing(text: str, start: int) -> int | None:
 
 
 def format_subevent(subevent: Subevent) -> str:
+    """As it is written: ``e1:if(bound(p)):reach(x,p)``."""
     guards = "".join(f"{guard.operator}({guard.condition}):" for guard in subevent.guards)
     return f"{subevent.label}:{guards}{subevent.event}"

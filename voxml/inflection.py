@@ -1,4 +1,4 @@
-"""Regular English inflection by rule (Quirk et al., A Comprehensive Grammar, chapters 3 and 5); entries spell out the rest."""
+"""Regular English inflection by rule (Quirk et al., A Comprehensive Grammar, ch. 3 and 5); entries tell the rest."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ ARGUMENT_TYPES = (
 _Value = TypeVar("_Value")
 
 
-class _Fault(Exception):
+class _Fault(Exception):  # noqa: N818 - becomes an error once the file is known
     """What is wrong with which element; becomes a VoxmlError once the file is known."""
 
 
@@ -134,7 +134,7 @@ def _optional_text(element: Element, path: str) -> str | None:
 def _attribute(element: Element, name: str) -> str:
     value = element.get(name)
     if value is None or not value.strip():
-        raise _Fault(f"<{element.tag}>: the attribute {name} is missing: add {name}=\"...\"")
+        raise _Fault(f'<{element.tag}>: the attribute {name} is missing: add {name}="..."')
     return value.strip()
 
 

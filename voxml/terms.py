@@ -1,9 +1,9 @@
 """Terms: the one notation of logical forms, program bodies and affordance formulas.
 
 ``go(to(the(first(fiducial,on(right)))))``, ``rotate(x,y,90deg)``, ``put(x,in([1]))``. A form is a `Term` (a predicate
-with arguments; a bare name is a term without any), a `Quantity` (a number with its unit) or a `Name` (a quoted text that is not
-vocabulary). `str` prints the canonical text and `parse_form` reads it back to the same value. The notation, predicate by
-predicate, is in ``docs/forms.md``.
+with arguments; a bare name is a term without any), a `Quantity` (a number with its unit) or a `Name` (a quoted text
+that is not vocabulary). `str` prints the canonical text and `parse_form` reads it back to the same value. The notation,
+predicate by predicate, is in ``docs/forms.md``.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ class _Reader:
     def next_token(self) -> re.Match[str]:
         token = _TOKEN.match(self.text, self.at)
         if token is None:
-            raise FormError(f"character {self.at + 1} of '{self.text[:80]}' is not of a form: expected a term such as go(forward,1m)")
+            raise FormError(f"character {self.at + 1} of '{self.text[:80]}' is not of a form such as go(forward,1m)")
         self.at = token.end()
         return token
 

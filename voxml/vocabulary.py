@@ -100,8 +100,9 @@ def _index(senses: tuple[Sense, ...]) -> dict[str, tuple[Sense, ...]]:
         key = (sense.words, sense.category, "" if is_verb else str(sense.value))
         known = merged.get(key)
         if known is not None and isinstance(known.value, tuple) and isinstance(sense.value, tuple):
-            sense = Sense(sense.words, sense.category, (*known.value, *sense.value))
-        merged[key] = sense
+            merged[key] = Sense(sense.words, sense.category, (*known.value, *sense.value))
+        else:
+            merged[key] = sense
     index: dict[str, list[Sense]] = {}
     for sense in merged.values():
         index.setdefault(sense.words[0], []).append(sense)
