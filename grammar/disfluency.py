@@ -56,8 +56,10 @@ class Fluency:
         for index, token in enumerate(tokens):
             if self._is_filler(tokens, index) or self._is_broken_off(tokens, index, kept):
                 continue
-            kept.append(self._whole(token, tokens, index))
-        return [token for token in kept if token.text]
+            whole = self._whole(token, tokens, index)
+            if whole is not None:
+                kept.append(whole)
+        return kept
 
     def _is_filler(self, tokens: Sequence[Token], at: int) -> bool:
         """A hesitation; but "er" may be an editing term ("forty er ninety"), which is seen later."""
@@ -90,7 +92,7 @@ class Fluency:
     def _is_number(self, word: str) -> bool:
         return self._numbers.is_number_word(word)
 
-    def _whole(self, token: Token, tokens: Sequence[Token], at: int) -> Token:
+    def _whole(self, token: Token, tokens: Sequence[Token], at: int) -> Token | None:
         """A unit whose beginning was swallowed ("thirty grees") in full; nothing where it is said again."""
         word = token.text
         if len(word) < _CLIPPED_MIN or self.is_word(word):
@@ -99,7 +101,7 @@ class Fluency:
         if whole is None:
             return token
         said_again = at + 1 < len(tokens) and tokens[at + 1].text == whole
-        return Token("" if said_again else whole, token.start, token.end)
+        return None if said_again else Token(whole, token.start, token.end)
 
     # ------------------------------------------------------------ editing terms
     def _leading_edit(self, tokens: list[Token]) -> tuple[list[Token], bool]:
