@@ -73,7 +73,7 @@ class Bridge:
         keys = self._keys
         names = [keys.commands, keys.queue, self._record, keys.feedback, keys.feedback_stream, keys.reset]
         names += [keys.map, keys.odom, keys.fiducials, keys.lidar, keys.status]
-        self._names = (len(names), *names)
+        self._names: tuple[str | int, ...] = (len(names), *names)
         try:
             self._connections = Connections(url, _script("bridge.lua"), self._keys.commands)
         except ValueError:

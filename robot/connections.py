@@ -1,13 +1,15 @@
 """The robot's two connections to Redis: one on which it exchanges, one on which commands come by themselves.
 
-A round trip to a Redis on the same machine costs less than handing the answer from one thread to another, so the control
-loop uses both connections itself. What may take long, finding a lost Redis again, is done in a thread.
+A round trip to a Redis on the same machine costs less than handing the answer from one thread to another, so the
+control loop uses both connections itself. What may take long, finding a lost Redis again, is done in a thread.
 """
 
 from __future__ import annotations
 
+import hashlib
 import logging
 import threading
+import time
 from collections.abc import Sequence
 from typing import Any
 
@@ -18,6 +20,8 @@ from redis.retry import Retry
 # A Redis that does not answer for so long is treated as lost; well within the second after which the wheels stop.
 EXCHANGE_TIMEOUT_S = 0.25
 CONNECT_TIMEOUT_S = 5.0
+# When the robot comes up its Redis may just be being started again.
+OPENING_PATIENCE_S, LOADING_PATIENCE_S = 1.0, 30.0
 BACKOFF_MIN_S, BACKOFF_MAX_S = 0.025, 1.0
 DOUBLINGS_MAX = 10
 LOST = (redis.ConnectionError, redis.TimeoutError)
@@ -35,17 +39,18 @@ class Connections:
     """
 
     def __init__(self, url: str, script: str, commands: str) -> None:
-        options: dict[str, Any] = {
-            "socket_timeout": EXCHANGE_TIMEOUT_S,
+        self._url = url
+        self._options: dict[str, Any] = {
             "socket_connect_timeout": CONNECT_TIMEOUT_S,
             "retry": Retry(NoBackoff(), 0),
         }
-        self._pool = redis.ConnectionPool.from_url(url, **options)
+        self._pool = redis.ConnectionPool.from_url(url, socket_timeout=EXCHANGE_TIMEOUT_S, **self._options)
         self._script = script
         # Moving a list's head onto itself changes nothing, but blocks until there is one.
         self._until_pushed = ("BLMOVE", commands, commands, "LEFT", "LEFT", 0)
-        self._exchanging = self._waiting = self._pool.make_connection()
-        self._sha = ""
+        self._exchanging: Any = self._pool.make_connection()  # redis-py's connections carry no types
+        self._waiting: Any = self._pool.make_connection()
+        self._sha = hashlib.sha1(script.encode(), usedforsecurity=False).hexdigest()
         self._armed = False
         self._failures = 0
         self._up = threading.Event()
@@ -56,12 +61,21 @@ class Connections:
         """Connect, and what ``script`` answers, run once.
 
         Raises:
-            redis.RedisError: nothing answers, or not as wanted.
+            redis.RedisError: nothing answers, or not as wanted, even after a little while.
         """
-        self._connect()
-        answer = self._ask("EVAL", script, *arguments)
-        self._up.set()
-        return answer
+        began_s = time.monotonic()
+        while True:
+            try:
+                answer = self._open(script, arguments)
+            except LOST as error:
+                loading = isinstance(error, redis.BusyLoadingError)
+                patience_s = LOADING_PATIENCE_S if loading else OPENING_PATIENCE_S
+                if isinstance(error, redis.AuthenticationError) or time.monotonic() - began_s > patience_s:
+                    raise
+                self._closed.wait(BACKOFF_MIN_S)
+            else:
+                self._up.set()
+                return answer
 
     def close(self) -> None:
         self._closed.set()
@@ -83,7 +97,7 @@ class Connections:
         try:
             answer: list[Any] = self._ask("EVALSHA", self._sha, *arguments)
         except redis.exceptions.NoScriptError:
-            self._load()
+            self._ask("SCRIPT", "LOAD", self._script)
             answer = self._ask("EVALSHA", self._sha, *arguments)
         self._failures = 0
         return answer
@@ -123,6 +137,14 @@ class Connections:
         return self._up.wait(timeout_s)
 
     # ------------------------------------------------------------------ connecting
+    def _open(self, script: str, arguments: Arguments) -> Any:
+        options: dict[str, Any] = {**self._options, "socket_timeout": CONNECT_TIMEOUT_S}
+        with redis.Redis.from_url(self._url, **options) as client:
+            answer = client.execute_command("EVAL", script, *arguments)
+            client.script_load(self._script)
+        self._connect()
+        return answer
+
     def _find(self) -> None:
         backoff = ExponentialBackoff(cap=BACKOFF_MAX_S, base=BACKOFF_MIN_S)
         while not self._closed.wait(backoff.compute(min(self._failures, DOUBLINGS_MAX))):
@@ -139,14 +161,10 @@ class Connections:
         self._armed = False
         self._exchanging.connect()
         self._waiting.connect()
-        self._load()
 
     def _disconnect(self) -> None:
         self._exchanging.disconnect()
         self._waiting.disconnect()
-
-    def _load(self) -> None:
-        self._sha = self._ask("SCRIPT", "LOAD", self._script).decode()
 
     def _ask(self, *command: str | int) -> Any:
         self._exchanging.send_command(*command)

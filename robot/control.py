@@ -14,14 +14,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from .body import Body, Image, Scan
-from .entries import read_entry
+from .entries import read_entry, read_orphan
 from .geometry import Point, Pose
 from .localisation import Localiser
 from .mapping import Mapper
 from .messages import Feedback, Malformed
 from .navigation import Goal, Navigator, Phase, Rotate, State
 from .pictures import save_picture
-from .port import Boot, News, Port
+from .port import Boot, Entry, News, Port
 from .publishing import Publisher
 from .queue import (
     IDLE,
@@ -70,6 +70,13 @@ def read_boot(boot: Boot) -> Record | None:
     return record if boot.unhandled or queue.goals or queue.pictures or queue.mode is not Mode.READY else None
 
 
+def orphans(boot: Boot, record: Record | None) -> tuple[Entry, ...]:
+    """The entries that the record should know of and does not, because somebody has changed it by hand."""
+    queue = IDLE if record is None else record.queue
+    known = {goal.entry for goal in (*queue.goals, *queue.pictures)}
+    return tuple(entry for entry in boot.left if entry.number not in known)
+
+
 class Robot:
     """One robot: a body, and a port through which it is commanded.
 
@@ -112,6 +119,8 @@ class Robot:
         self._news = News()
         self._publisher = Publisher(clock)
         self._ticks = 0
+        for entry in orphans(boot, record):
+            self._feed(read_orphan(entry))
         resumed = record is not None or boot.unhandled
         event = Resumed(boot.admitted, boot.unhandled) if resumed else Started()
         self._feed(event, turned_rad=0.0 if record is None else record.turned_rad)
@@ -146,13 +155,14 @@ class Robot:
 
         What was done about a command is durable before anything moves for it.
         """
+        self._publish()
         for _ in range(ROUNDS_MAX):
-            self._publish()
             incoming = self.port.exchange(self._take_news())
             self._held = incoming.held or self.port.silent_s > WATCHDOG_S
             if incoming.reset:
                 self._publisher.repeat()
                 self._feed(Reset())
+                self._publish()
             for entry in incoming.entries:
                 self._feed(read_entry(entry))
             if not incoming.entries and not incoming.reset:

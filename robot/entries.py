@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .messages import COMMAND_MAX_CHARS, ID_MAX_CHARS, Malformed, decode_entry, decode_object
 from .port import Entry
-from .queue import Garbled, Received
+from .queue import Garbled, Orphaned, Received
 
 
 def read_entry(entry: Entry) -> Received | Garbled:
@@ -13,6 +13,12 @@ def read_entry(entry: Entry) -> Received | Garbled:
         return Received(entry.number, decode_entry(entry.text))
     except Malformed as error:
         return Garbled(entry.number, str(error), _id_of(entry.text))
+
+
+def read_orphan(entry: Entry) -> Orphaned:
+    """The entry as one that will not be done, under its id if it has a readable one."""
+    read = read_entry(entry)
+    return Orphaned(entry.number, read.envelope.id if isinstance(read, Received) else read.id)
 
 
 def _id_of(text: bytes) -> str | None:

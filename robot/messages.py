@@ -678,7 +678,9 @@ def decode_object(text: str | bytes, limit_chars: int = MESSAGE_MAX_CHARS) -> di
 
     try:
         data = json.loads(text, parse_constant=refuse)
-    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError):
+    except Malformed:
+        raise
+    except (ValueError, RecursionError):  # no JSON, no UTF-8, or an integer of too many digits
         raise Malformed("message is not JSON") from None
     if not isinstance(data, dict):
         raise Malformed("message is not a JSON object")

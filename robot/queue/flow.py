@@ -21,6 +21,7 @@ from .state import (
     Halt,
     Here,
     Mode,
+    Orphaned,
     Photograph,
     PictureFailed,
     PictureTaken,
@@ -53,8 +54,8 @@ def handle(state: QueueState, event: Event, here: Here) -> tuple[QueueState, tup
     match event:
         case Received(entry, envelope):
             _received(step, entry, envelope)
-        case Garbled(entry, reason, id):
-            step.refuse(entry, id, reason)
+        case Garbled() | Orphaned():
+            _not_done(step, event)
         case Estimated():
             _estimated(step)
         case Arrived() | Failed():
@@ -85,6 +86,14 @@ def _received(step: Step, entry: int, envelope: Envelope) -> None:
         if refusal is not None:
             step.tell(FeedbackCode.INVALID, id=envelope.id, detail=refusal)
         step.forget(entry)
+
+
+def _not_done(step: Step, event: Garbled | Orphaned) -> None:
+    if isinstance(event, Garbled):
+        step.tell(FeedbackCode.INVALID, id=event.id, detail=event.reason)
+    else:
+        step.tell(FeedbackCode.CANCELLED_GOAL, id=event.id)
+    step.forget(event.entry)
 
 
 def _movement(step: Step, entry: int, envelope: Envelope) -> None:

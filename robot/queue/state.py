@@ -133,6 +133,14 @@ class Garbled:
 
 
 @dataclass(frozen=True, slots=True)
+class Orphaned:
+    """An entry taken before a restart of which nothing is known any more, so that it will not be done."""
+
+    entry: int
+    id: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Estimated:
     """A turn is complete by odometry and is now being verified."""
 
@@ -167,7 +175,19 @@ class Reset:
     """Bridge_Reset: everything on the wire is gone."""
 
 
-Event = Started | Resumed | Received | Garbled | Estimated | Arrived | Failed | PictureTaken | PictureFailed | Reset
+Event = (
+    Reset
+    | Started
+    | Resumed
+    | Received
+    | Garbled
+    | Orphaned
+    | Estimated
+    | Arrived
+    | Failed
+    | PictureTaken
+    | PictureFailed
+)
 
 
 # ------------------------------------------------------------------ effects

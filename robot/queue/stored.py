@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
-import math
 from typing import Any
 
 from robot.geometry import Pose
 from robot.messages import Command, Control, Malformed, Patrol, decode_command, decode_object, encode_command
 
 from .state import Current, Goal, Mode, QueueState
+
+NUMBER_MAX = 1e6  # metres or radians: far beyond any place or turn
 
 
 def state_to_json(state: QueueState) -> str:
@@ -88,10 +89,9 @@ def _read_pose(row: Any) -> Pose | None:
 
 
 def _number(value: Any) -> float:
-    number = float(value)
-    if not math.isfinite(number):
-        raise ValueError("a number that is not finite")
-    return number
+    if not abs(value) < NUMBER_MAX:
+        raise ValueError("a number out of all proportion")
+    return float(value)
 
 
 def _whole(value: Any) -> int:
