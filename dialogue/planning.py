@@ -30,13 +30,15 @@ from robot.messages import (
 )
 from voxml.vocabulary import Lexicon
 
-from .programs import bind, substitute
+from .programs import bind, is_amount, substitute
 
 COMMANDS_MAX = 100
 """In one utterance; more is more likely misunderstood than meant."""
 
 _ANGLE_STEP_DEG = 0.1  # what a turn that was computed is rounded to
 _PLACE_DECIMALS = 3
+_LITTLE = {Unit.METRE: 0.3, Unit.DEGREE: 15.0}  # "a little": about the robot's own length, and a glance aside
+_CONDITIONS = frozenset({"if", "when", "until"})
 
 
 class Refusal(Enum):
@@ -46,6 +48,7 @@ class Refusal(Enum):
     WRONG_ARGUMENT = "wrong argument"
     NO_SIDE = "no side"  # an angle without left or right
     NOT_ABLE = "not able"  # the robot has no such command
+    CONDITION = "condition"  # an end or a condition that only what is met on the way can tell
     BEYOND_LIMITS = "beyond limits"
     TOO_LONG = "too long"
 
@@ -111,8 +114,18 @@ class _Planner:
             case Term(pred="repeat", args=(Quantity(value=times), part)):
                 for _ in range(min(int(times), COMMANDS_MAX + 1)):
                     self.run(part)
+            case Term(pred="not", args=(_,)):
+                pass  # what was forbidden is left undone
+            case Term(pred=operator, args=(_, _, *_)) if operator in _CONDITIONS:
+                raise _Stops(Refused(Refusal.CONDITION, form))
+            case Term(pred=manner, args=(part,)) if self._is_manner(manner):
+                self.run(part)  # the robot has one speed
             case _:
                 self._unfold(form)
+
+    def _is_manner(self, pred: str) -> bool:
+        entry = self.lexicon.attributes.get(pred)
+        return entry is not None and any("event" in arg.types for arg in entry.args)
 
     def _unfold(self, form: Term) -> None:
         """A program by its body."""
@@ -283,11 +296,24 @@ _PRIMITIVES: Mapping[str, Callable[[_Planner, Term], None]] = {
 
 
 def _quantity(form: Term, unit: Unit, otherwise: float) -> float:
-    return next((arg.value for arg in form.args if isinstance(arg, Quantity) and arg.unit is unit), otherwise)
+    """The amount of that unit among the arguments; "two more feet" are two feet, and "a little" is what it is here."""
+    for arg in form.args:
+        match amount := _added(arg):
+            case Quantity(value) if amount.unit is unit:
+                return value
+            case Term("little"):
+                return _LITTLE[unit]
+            case Term("max"):
+                raise _Stops(Refused(Refusal.CONDITION, form))
+    return otherwise
+
+
+def _added(form: Form) -> Form:
+    return form.args[0] if isinstance(form, Term) and form.pred == "more" and form.args else form
 
 
 def _terms(form: Term) -> list[Term]:
-    return [arg for arg in form.args if isinstance(arg, Term)]
+    return [arg for arg in form.args if isinstance(arg, Term) and not is_amount(arg)]
 
 
 def _check_limit(form: Form, value: float, limit: float) -> None:

@@ -15,10 +15,23 @@ _AXES = frozenset({"forward", "back"})
 _SIDES = frozenset({"left", "right"})
 _VAGUE = frozenset({"little", "max"})
 _PATHS = frozenset({"to", "toward", "away_from", "through", "past", "around", "along", "across", "into", "out_of"})
+_NO_PHRASES = _AXES | _SIDES | _PATHS | frozenset(COMPASS_RAD)
 
 
 def _is_unit(unit: Unit) -> Callable[[Form], bool]:
-    return lambda form: (isinstance(form, Quantity) and form.unit is unit) or _is_bare(form, _VAGUE)
+    def fits(form: Form) -> bool:
+        if isinstance(form, Term) and form.pred == "more" and form.args:
+            return fits(form.args[0])
+        return form.unit is unit if isinstance(form, Quantity) else _is_bare(form, _VAGUE)
+
+    return fits
+
+
+def is_amount(form: Form) -> bool:
+    """A quantity, a vague one ("a little"), or what is to be added to one ("two more feet")."""
+    if isinstance(form, Term):
+        return is_amount(form.args[0]) if form.pred == "more" and form.args else _is_bare(form, _VAGUE)
+    return isinstance(form, Quantity)
 
 
 def _is_bare(form: Form, preds: frozenset[str]) -> bool:
@@ -37,7 +50,7 @@ def _is_phrase(form: Form) -> bool:
     """A noun phrase, a pronoun, a place or a name: whatever was not claimed by a narrower type."""
     if isinstance(form, Name):
         return True
-    return isinstance(form, Term) and form.pred not in _AXES | _SIDES | _PATHS and form.pred not in COMPASS_RAD
+    return isinstance(form, Term) and not is_amount(form) and form.pred not in _NO_PHRASES
 
 
 _FITS: Mapping[str, Callable[[Form], bool]] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from grammar.acts import DialogueAct, Function, NotUnderstood
-from grammar.forms import Term
+from grammar.forms import Form, Term
 from grounding import Ambiguous, Unresolved, World
 from robot.messages import encode_command
 from voxml.vocabulary import Lexicon
@@ -15,6 +15,8 @@ from .turn import Parser
 from .wording import listed, name_entities, not_understood, refused, unresolved
 
 _NOWHERE = World()
+_STOP = Term("stop")
+OPERATORS = frozenset({"seq", "repeat", "until", "if", "when"})
 
 
 def understand(text: str, world: World | None, lexicon: Lexicon, parse: Parser) -> dict[str, Any]:
@@ -32,7 +34,7 @@ def understand(text: str, world: World | None, lexicon: Lexicon, parse: Parser) 
             span=list(acts.span), expected=list(acts.expected), nearest=acts.nearest,
         )  # fmt: skip
     form = str(acts[0].form) if len(acts) == 1 else str(Term("seq", tuple(act.form for act in acts)))
-    instructions = tuple(act for act in acts if act.function is Function.INSTRUCT)
+    instructions = tuple(act for act in acts if act.function in (Function.INSTRUCT, Function.CORRECT))
     act = (instructions or acts)[0].function.value
     repaired = next((each.repaired for each in acts if each.repaired is not None), None)
     if repaired is not None:
@@ -43,7 +45,8 @@ def understand(text: str, world: World | None, lexicon: Lexicon, parse: Parser) 
 def _planned(
     text: str, act: str, form: str, instructions: tuple[DialogueAct, ...], world: World | None, lexicon: Lexicon
 ) -> dict[str, Any]:
-    outcome = plan(tuple(each.form for each in instructions), world or _NOWHERE, lexicon)
+    forms = tuple(_to_be_done(each, lexicon) for each in instructions)
+    outcome = plan(forms, world or _NOWHERE, lexicon)
     match outcome:
         case Plan(commands):
             return _record(text, "ok", act, form, [encode_command(command) for command in commands])
@@ -54,10 +57,19 @@ def _planned(
             return _record(text, "ambiguous", act, form, None, reason=reason)
         case Unresolved():
             return _record(text, "needs_world", act, form, None, reason=unresolved(outcome))
+        case Refused(Refusal.CONDITION) if world is None:
+            return _record(text, "needs_world", act, form, None)
         case Refused(Refusal.NO_SIDE):
             return _record(text, "ambiguous", act, form, None, reason=refused(outcome))
         case Refused():
             return _record(text, "ok", act, form, [], reason=refused(outcome))
+
+
+def _to_be_done(act: DialogueAct, lexicon: Lexicon) -> Form:
+    """An instruction's form; a correction that says only what to change ("no, left") stops what is being done."""
+    if act.function is Function.INSTRUCT or not isinstance(act.form, Term):
+        return act.form if act.function is Function.INSTRUCT else _STOP
+    return act.form if act.form.pred in lexicon.programs or act.form.pred in OPERATORS else _STOP
 
 
 def _record(

@@ -134,6 +134,7 @@ _REFUSALS = {
     Refusal.WRONG_ARGUMENT: "I can't {}.",
     Refusal.NO_SIDE: "Which way shall I turn: left or right?",
     Refusal.NOT_ABLE: "I am not able to {}.",
+    Refusal.CONDITION: "I can't tell in advance when to {}.",
     Refusal.BEYOND_LIMITS: "That is too far for me: {}.",
     Refusal.TOO_LONG: "That is too much at once: at most {} commands.",
 }
