@@ -70,7 +70,19 @@ class ArgumentFitter:
                 return self._fit(reading, args)
             except Refused as refusal:
                 reason = reason or str(refusal)
+        legs = self._legs(readings, args)
+        if legs is not None:
+            return legs
         raise Refused(reason or "something else to do")
+
+    def _legs(self, readings: Iterable[Reading], args: Args) -> Form | None:
+        """Several paths are gone one after the other: "out of this room into the next one"."""
+        paths = [index for index, arg in enumerate(args) if arg.kind is Kind.PATH]
+        if len(paths) < 2:
+            return None
+        first = self.program(readings, args[: paths[1]])
+        rest = self.program(readings, args[paths[1] :])
+        return Term("seq", (first, *(rest.args if isinstance(rest, Term) and rest.pred == "seq" else (rest,))))
 
     def implied(self, args: Args, preds: tuple[str, ...]) -> Form | None:
         """The program that arguments without a verb say all of: a side with an angle, a way with a distance."""

@@ -34,9 +34,6 @@ class Fluency:
         self._fillers = frozenset(closed.table("filler"))
         self._strong = _phrases(lexicon, "edit")
         self._weak = _phrases(lexicon, "edit_weak")
-        self._never_alone = frozenset(closed.table("unit")) - frozenset(
-            word for phrase in lexicon.closed.classes for word in closed.table(phrase) if phrase.isupper()
-        )
         self._spoken_units = tuple(sorted(unit for unit in closed.table("unit") if len(unit) > _CLIPPED_MIN))
         self._leads = _phrases(lexicon, "LEAD")
 
@@ -71,16 +68,24 @@ class Fluency:
         word = tokens[at].text
         if word.endswith("-"):
             return True
+        if len(word) == 1 and word.isalpha() and (not kept or not self._is_number(kept[-1].text)):
+            return not self._begins_phrase(tokens, at)
         following = [token.text for token in tokens[at + 1 : at + 3] if token.text not in self._fillers]
         if any(len(each) > len(word) and each.startswith(word) for each in following[:1]) and not self._numbers_apart(
             word, following[0]
         ):
             return not self.is_word(word) or self._is_cut_number(word, following[0])
-        if word in self._never_alone and (not kept or not self._is_number(kept[-1].text)):
-            return len(word) == 1
         if self.is_word(word) or len(word) > _FRAGMENT_MAX:
             return _is_hiss(word) and not self.is_word(word)
         return len(word) == 1 or _is_hiss(word) or any(each[0] == word[0] for each in following)
+
+    def _begins_phrase(self, tokens: Sequence[Token], at: int) -> bool:
+        """Whether a letter is a word here: "a", "i", "t junction"."""
+        word = tokens[at].text
+        texts = tuple(token.text for token in tokens[at : at + 8])
+        if self._numbers.may_start(word):
+            return True
+        return any(texts[: len(sense.words)] == sense.words for sense in self._lexicon.senses(word))
 
     def _numbers_apart(self, word: str, following: str) -> bool:
         return word[0].isdigit() or not word.isalpha() or not following.isalpha()

@@ -16,6 +16,7 @@ SEPARATORS = frozenset({"AND", "THEN", "BEFORE_THAT", "BUT"})
 CLAUSE_OPENERS = frozenset(
     {"VERB", "VERB_ING", "LEAD", "LEAD_ING", "LEAD_TO", "LEAD_PAST", "LIGHT", "IF", "UNTIL", "FORBID"}
 )
+BOUNDARIES = SEPARATORS | CLAUSE_OPENERS
 _CARDINAL_MAX = 100
 
 
@@ -47,10 +48,12 @@ class Lattice:
         return known
 
     def may_end(self, at: int) -> bool:
-        """Whether a clause may end before ``at``: at a mark, a connective, or where another clause may begin."""
+        """Whether a clause may end before ``at``: at a mark, a connective, where another may begin, behind a first "no"."""
         if at >= len(self.texts) or self.texts[at] in MARKS:
             return True
-        return not self.categories(at).isdisjoint(SEPARATORS | CLAUSE_OPENERS)
+        if at == 1 and "NO" in self.categories(0):
+            return True
+        return not self.categories(at).isdisjoint(BOUNDARIES)
 
 
 class WordReader:
@@ -70,7 +73,7 @@ class WordReader:
             end = at + len(sense.words)
             if tuple(texts[at:end]) == sense.words:
                 found.append(Edge(sense.category, sense.value, end))
-        found.sort(key=lambda edge: -edge.end)
+        found.sort(key=_preference)
         skips = self._skips.get(word, ())
         found.extend(Edge(None, None, at + len(skip)) for skip in skips if tuple(texts[at : at + len(skip)]) == skip)
         if word in MARKS:
@@ -93,6 +96,11 @@ class WordReader:
             if value == int(value) and 1 <= value <= _CARDINAL_MAX:
                 found.append(Edge("CARDINAL", Quantity(value), end))
         return found
+
+
+def _preference(edge: Edge) -> tuple[int, bool]:
+    """Longer phrases first; "down" is a way to go before it is "down the hallway"."""
+    return -edge.end, edge.terminal == "PATH"
 
 
 def _by_first(phrases: Iterable[tuple[str, ...]]) -> dict[str, tuple[tuple[str, ...], ...]]:

@@ -68,6 +68,12 @@ class Meaning:
     def verb_led(self, lead: Form, readings: Any, args: Args = ()) -> Form:
         return self.verb(readings, args)
 
+    def verb_after(self, before: Args, readings: Any, args: Args = ()) -> Form:
+        """ "forty five degrees turn right"."""
+        if any(arg.kind in (Kind.PHRASE, Kind.EVENT, Kind.PATH) for arg in before):
+            raise Refused("a verb first")
+        return self.verb(readings, (*before, *args))
+
     def light_bare(self, lead: Form, args: Args) -> Form:
         """ "can you ... left ninety degrees"."""
         implied = self._fitter.implied(args, _IMPLIED)
@@ -204,7 +210,7 @@ _PLAIN: dict[str, Action] = {
     "facing": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),
     "facing_heading": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),
     "of": lambda of, what: Arg(Kind.OF, Term("of", (what,))),
-    "of_view": lambda of, view: Arg(Kind.OF, Term("of", (view,))),
+    "of_view": lambda of, view, *place: Arg(Kind.OF, Term("of", (view,))),
     "manner": _arg(Kind.MANNER),
     "way": lambda demonstrative, way: Arg(Kind.WAY, Term(_pred(demonstrative), (Term("way"),))),
     "opposite": _arg(Kind.WAY),

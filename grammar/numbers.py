@@ -45,11 +45,8 @@ class NumberReader:
         self._approximate_first = frozenset(words[0] for words in self._approximate)
         self._lengths = _units(closed)
         self._starters = frozenset(
-            {*self._units, *self._multipliers, *self._fractions, *self._vague_counts}
-            | self._articles
-            | self._point
-            | self._minus
-            | self._more
+            {*self._units, *self._multipliers, *self._fractions, *self._vague_counts, *self._articles}
+            | {*self._point, *self._minus, *self._more, *self._approximate_first}
         )
 
     def may_start(self, token: str) -> bool:
@@ -141,7 +138,7 @@ class NumberReader:
         start = at + 1 if at < len(tokens) and tokens[at] in self._and else at
         found = self.number(tokens, start)
         rest = None if found is None else self._unit(tokens, found[1])
-        if found is None or rest is None or rest[0].unit is not unit.unit or rest[0].value >= unit.value:
+        if found is None or rest is None or rest[0].unit is not unit.unit or found[0] * rest[0].value >= unit.value:
             return None
         return found[0] * rest[0].value, rest[1]
 
