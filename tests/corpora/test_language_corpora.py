@@ -57,9 +57,9 @@ def test_negatives_move_nothing() -> None:
         assert not case.commands, case.text
 
 
-def test_only_instructions_have_commands_of_motion() -> None:
+def test_only_instructions_and_their_corrections_have_commands_of_motion() -> None:
     for case in (case for path in LANGUAGE for case in _cases(path)):
-        if case.act != Function.INSTRUCT.value:
+        if case.act not in (Function.INSTRUCT.value, Function.CORRECT.value):
             assert set(case.commands or ()) <= MOTIONLESS, case.text
 
 
