@@ -6,8 +6,6 @@ import math
 import random
 from dataclasses import dataclass
 
-import numpy as np
-
 from robot.geometry import Point, Pose
 from voxml.scene import Scene
 
@@ -17,7 +15,8 @@ EASY_M = 0.08  # a circle so much larger than the robot still gets to a goal tha
 TIGHT_M = 0.04  # and one so much smaller does not come near one that counts as unreachable
 NEAR_M = 0.40  # the robot may take a place up to 0.3 m from a goal inside something; and a cell of its map
 UNREACHABLE_SHARE = 1 / 3
-SURVEY_M = 1.2  # between the places from which a known map is made
+SURVEY_M = 0.8  # between the places from which a known map is made
+SURVEY_MISSES = 100  # places drawn in a row that were too near to another
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,10 +62,16 @@ class Course:
                 return Task(start, goal, reachable)
 
     def places(self) -> list[Point]:
-        """A lattice over the free ground."""
-        left, bottom, right, top = self._bounds
-        spots = [Point(x, y) for x in np.arange(left, right, SURVEY_M) for y in np.arange(bottom, top, SURVEY_M)]
-        return [spot for spot in spots if self._easy(spot) == 0.0]
+        """All over the free ground, no two nearer to each other than they need be to see everything."""
+        places: list[Point] = []
+        misses = 0
+        while misses < SURVEY_MISSES:
+            place = self.anywhere().point
+            near = any(place.distance_to(other) < SURVEY_M for other in places)
+            misses = misses + 1 if near else 0
+            if not near:
+                places.append(place)
+        return places
 
     def _point(self) -> Point:
         left, bottom, right, top = self._bounds
