@@ -8,6 +8,7 @@ from voxml.vocabulary import Lexicon, load_lexicon
 
 from .acts import DialogueAct, Function, NotUnderstood
 from .forms import Form, Name, Quantity, Term, Unit, parse_form
+from .mending import Mender
 from .reader import Reader
 
 __all__ = [
@@ -27,11 +28,19 @@ __all__ = [
 def parse(text: str, lexicon: Lexicon | None = None) -> tuple[DialogueAct, ...] | NotUnderstood:
     """The acts of an utterance, or where it went wrong.
 
+    What the grammar cannot read but may mean stop, stops; where words were repaired the acts say so, to be confirmed.
     The reader for a lexicon is built at its first use (about 0.2 s) and kept.
     """
-    return _reader(lexicon or load_lexicon()).read(text)
+    words = lexicon or load_lexicon()
+    reading = _reader(words).read(text)
+    return _mender(words).mend(text, reading) if isinstance(reading, NotUnderstood) else reading
 
 
 @lru_cache(maxsize=8)
 def _reader(lexicon: Lexicon) -> Reader:
     return Reader(lexicon)
+
+
+@lru_cache(maxsize=8)
+def _mender(lexicon: Lexicon) -> Mender:
+    return Mender(lexicon, _reader(lexicon).read)

@@ -150,7 +150,7 @@ class Machine:
         may_end: Callable[[int], bool],
         trace: Trace,
     ) -> tuple[Node, int]:
-        """Go on by the first choices that hold, as far as they lead; what else there was to choose is left in ``pending``."""
+        """Go on by the first choices that hold, as far as they lead; what else could be chosen is left in ``pending``."""
         options = edges(at)
         while choice < len(options) and trace.steps <= STEPS_MAX:
             edge = options[choice]
