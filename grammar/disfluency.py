@@ -30,20 +30,21 @@ class Fluency:
         closed = lexicon.closed
         self._lexicon = lexicon
         self._numbers = numbers
-        self._vocabulary = lexicon.vocabulary() - frozenset(closed.table("filler")) | _number_words(lexicon)
+        self.vocabulary = lexicon.vocabulary() - frozenset(closed.table("filler")) | _number_words(lexicon)
         self._fillers = frozenset(closed.table("filler"))
         self._strong = _phrases(lexicon, "edit")
+        self._trailing = _phrases(lexicon, "edit_trailing")
         self._weak = _phrases(lexicon, "edit_weak")
         self._spoken_units = tuple(sorted(unit for unit in closed.table("unit") if len(unit) > _CLIPPED_MIN))
         self._leads = _phrases(lexicon, "LEAD")
 
     def is_word(self, word: str) -> bool:
-        return word in self._vocabulary or word in MARKS or word[0].isdigit() or self._numbers.may_start(word)
+        return word in self.vocabulary or word in MARKS or word[0].isdigit() or self._numbers.may_start(word)
 
     def clean(self, tokens: Sequence[Token]) -> tuple[tuple[Token, ...], bool]:
         """The tokens as they were meant, and whether the utterance begins by taking something back ("no, I mean ...")."""
         kept = self._without_noise(tokens)
-        kept, corrects = self._leading_edit(kept)
+        kept, corrects = self._leading_edit(self._without_trailing_edit(kept))
         kept = self._repaired(kept)
         return tuple(self._without_restarts(self._without_repeats(kept))), corrects
 
@@ -61,6 +62,8 @@ class Fluency:
     def _is_filler(self, tokens: Sequence[Token], at: int) -> bool:
         """A hesitation; but "er" may be an editing term ("forty er ninety"), which is seen later."""
         word = tokens[at].text
+        if word in self._fillers and at and self._numbers.is_unit(word) and tokens[at - 1].text[-1].isdigit():
+            return False
         return word in self._fillers and not (word in self._weak and 0 < at < len(tokens) - 1)
 
     def _is_broken_off(self, tokens: Sequence[Token], at: int, kept: Sequence[Token]) -> bool:
@@ -122,6 +125,13 @@ class Fluency:
         corrects = any(token.text not in MARKS for token in tokens[:at])
         return (tokens[at:] if corrects else tokens), corrects
 
+    def _without_trailing_edit(self, tokens: list[Token]) -> list[Token]:
+        """ "left, I said" and "the red one, I mean" take nothing back."""
+        for at in range(max(1, len(tokens) - 3), len(tokens)):
+            if at + self._match(self._trailing, tokens, at) == len(tokens):
+                return tokens[:at]
+        return tokens
+
     def _repaired(self, tokens: list[Token]) -> list[Token]:
         at = 1
         while at < len(tokens):
@@ -179,13 +189,11 @@ class Fluency:
         word = tokens[at].text
         if self._numbers.is_number_word(word):
             return "number"
-        if self._numbers.is_unit(word):
-            return "unit"
         kinds = self._kinds(tokens, at)
         for name, group in (("direction", _DIRECTION), ("relation", _RELATION), ("thing", _THING)):
             if kinds & group:
                 return name
-        return None
+        return "unit" if self._numbers.is_unit(word) else None
 
     def _kinds(self, tokens: Sequence[Token], at: int) -> frozenset[str]:
         """The categories of the longest phrases that begin at the token."""

@@ -17,6 +17,7 @@ CLAUSE_OPENERS = frozenset(
     {"VERB", "VERB_ING", "LEAD", "LEAD_ING", "LEAD_TO", "LEAD_PAST", "LIGHT", "IF", "UNTIL", "FORBID"}
 )
 BOUNDARIES = SEPARATORS | CLAUSE_OPENERS
+_SECOND_CHOICE = frozenset({"PATH", "NUMBER", "CARDINAL"})
 _CARDINAL_MAX = 100
 
 
@@ -63,6 +64,8 @@ class WordReader:
         self._lexicon = lexicon
         self._numbers = numbers
         self._skips = _by_first(word.words for word in lexicon.closed.words_of("skip"))
+        self._names = frozenset(lexicon.closed.table("address"))
+        self._refusals = frozenset(lexicon.closed.table("NO"))
         self._clock = frozenset(lexicon.closed.table("clock"))
 
     def edges(self, texts: Sequence[str], at: int) -> tuple[Edge, ...]:
@@ -74,7 +77,12 @@ class WordReader:
             if tuple(texts[at:end]) == sense.words:
                 found.append(Edge(sense.category, sense.value, end))
         found.sort(key=_preference)
+        opens = at == 0 or texts[at - 1] in MARKS
+        if opens and word in self._refusals:
+            found = [edge for edge in found if edge.terminal != "DETERMINER"]
         skips = self._skips.get(word, ())
+        if opens and word in self._names and at + 1 < len(texts):
+            found = [Edge(None, None, at + 1), *found]
         found.extend(Edge(None, None, at + len(skip)) for skip in skips if tuple(texts[at : at + len(skip)]) == skip)
         if word in MARKS:
             found.append(Edge(None, None, at + 1))
@@ -99,8 +107,8 @@ class WordReader:
 
 
 def _preference(edge: Edge) -> tuple[int, bool]:
-    """Longer phrases first; "down" is a way to go before it is "down the hallway"."""
-    return -edge.end, edge.terminal == "PATH"
+    """Longer phrases first; "down" is a way to go before it is "down the hallway", "one" a thing before it is a number."""
+    return -edge.end, edge.terminal in _SECOND_CHOICE
 
 
 def _by_first(phrases: Iterable[tuple[str, ...]]) -> dict[str, tuple[tuple[str, ...], ...]]:

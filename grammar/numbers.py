@@ -58,7 +58,7 @@ class NumberReader:
         return token in self._units or token in self._multipliers or token in self._fractions or token[0].isdigit()
 
     def is_unit(self, token: str) -> bool:
-        return token in self._lengths
+        return any(len(words) == 1 for words, _ in self._lengths.get(token, ()))
 
     # ------------------------------------------------------------ quantities
     def amount(self, tokens: Sequence[str], at: int) -> tuple[Amount, int] | None:
@@ -102,7 +102,7 @@ class NumberReader:
         if found is None:
             return (
                 (1.0, at)
-                if at and tokens[at - 1] in self._more and self._unit(tokens, at)
+                if 0 < at < len(tokens) and tokens[at - 1] in self._more and self._unit(tokens, at)
                 else self._article(tokens, at)
             )
         value, end = found

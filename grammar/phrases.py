@@ -89,6 +89,8 @@ def compound(modifier: Form, head: Form) -> Form:
     """ "conference table": the first noun narrows the second as an adjective does."""
     if not isinstance(modifier, Term) or not isinstance(head, Term):
         raise Refused("a noun")
+    if ONE in (modifier, head):
+        raise Refused("a noun")
     narrowing = modifier.args[0] if modifier.pred == "plural" else modifier
     if head.pred == "plural":
         return Term("plural", (Term(_pred(narrowing), head.args),))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from voxml.terms import Form, Term
 from voxml.vocabulary import Lexicon
@@ -18,8 +20,14 @@ from .meaning import Meaning
 from .numbers import NumberReader
 from .tokens import MARKS, Token, Tokenizer
 
+if TYPE_CHECKING:
+    from .repair import Repairer
+
 TEXT_MAX_CHARS = 2_000
 READINGS_MAX = 12
+CLAUSES_MAX = 150
+REPAIR_TOKENS_MAX = 30
+NEAREST_MIN = 0.5
 LANGUAGES = Path(__file__).parent / "languages"
 _SOCIAL = frozenset({Function.ACKNOWLEDGE, Function.GREET, Function.THANK, Function.BYE, Function.CONFIRM})
 _STOP = Term("stop")
@@ -42,38 +50,101 @@ class Reader:
     def __init__(self, lexicon: Lexicon, language: str = "en") -> None:
         numbers = NumberReader(lexicon.closed)
         meaning = Meaning(lexicon)
+        self._lexicon = lexicon
+        self._asking = frozenset(lexicon.closed.table("asking"))
+        self._halting = frozenset(lexicon.closed.table("halting"))
+        self._not_halting = frozenset(lexicon.closed.table("not_halting"))
         self._machine, self._tables = _machine(lexicon, language, meaning)
         self._words = WordReader(lexicon, numbers)
         self._tokenizer = Tokenizer(lexicon.closed)
         self._fluency = Fluency(lexicon, numbers)
 
     def read(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
-        """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
+        """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood.
+
+        Where the grammar has no reading, what may mean "stop" stops, and words it does not know (or, if it knows them all,
+        the one where reading ended) are replaced by like ones: such acts carry the text as it was understood.
+        """
         if len(text) > TEXT_MAX_CHARS:
             return NotUnderstood((TEXT_MAX_CHARS, len(text)), (f"at most {TEXT_MAX_CHARS} characters",))
         tokens, corrects = self._fluency.clean(self._tokenizer(text))
-        attempt = _Attempt(tokens, Lattice(tokens, self._words), self._machine)
+        attempt = self._attempt(tokens)
         clauses = attempt.clauses(0)
-        if not clauses:
-            return self._not_understood(text, tokens, attempt.trace)
-        return tuple(
-            DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end))
-            for clause in _ordered(clauses, corrects)
-        )
+        if clauses:
+            return _acts(tokens, clauses, corrects, self._is_control)
+        if self._halts(tokens):
+            return (DialogueAct(Function.INSTRUCT, _STOP, (tokens[0].start, tokens[-1].end)),)
+        return self._repaired(tokens, attempt.trace, corrects) or self._not_understood(text, tokens, attempt.trace)
+
+    def _attempt(self, tokens: tuple[Token, ...], steps: int = 0) -> _Attempt:
+        return _Attempt(tokens, Lattice(tokens, self._words), self._machine, steps)
+
+    def _is_control(self, form: Form) -> bool:
+        """Whether the form only tells the robot's queue what to do: that corrects nothing, whatever came before."""
+        entry = self._lexicon.programs.get(form.pred) if isinstance(form, Term) else None
+        return entry is not None and entry.body[0].event.pred == "control"
+
+    def _halts(self, tokens: tuple[Token, ...]) -> bool:
+        """Whether a word for stopping opens or ends what is no question and does not forbid it."""
+        texts = [token.text for token in tokens]
+        if not texts or texts[0] in self._asking:
+            return False
+        for at in {0, len(texts) - 1, *(at for at in range(1, len(texts)) if texts[at - 1] in MARKS)}:
+            if texts[at] in self._halting and (at == 0 or texts[at - 1] not in self._not_halting):
+                return not (at + 1 < len(texts) and texts[at + 1] in self._not_halting)
+        return False
+
+    def _repaired(self, tokens: tuple[Token, ...], trace: Trace, corrects: bool) -> tuple[DialogueAct, ...] | None:
+        if not 0 < len(tokens) <= REPAIR_TOKENS_MAX:
+            return None
+        texts = [token.text for token in tokens]
+        unknown = [at for at, word in enumerate(texts) if not self._fluency.is_word(word)]
+        steps = 0
+        for proposal in self._repairer.proposals(texts, unknown, trace.furthest):
+            changed = tuple(replace(token, text=word) for token, word in zip(tokens, proposal, strict=True))
+            attempt = self._attempt(changed, steps)
+            clauses = attempt.clauses(0)
+            steps = attempt.steps
+            if clauses:
+                said = None if all(clause.form == _STOP for clause in clauses) else " ".join(proposal)
+                return _acts(changed, clauses, corrects, self._is_control, said)
+        return None
+
+    @cached_property
+    def _repairer(self) -> Repairer:
+        from .repair import Repairer  # its search is only imported where something was not understood
+
+        return Repairer(self._fluency.vocabulary)
 
     def _not_understood(self, text: str, tokens: tuple[Token, ...], trace: Trace) -> NotUnderstood:
         expected = describe_expected(self._tables.expected(trace.state), trace)
-        if trace.furthest < len(tokens):
-            token = tokens[trace.furthest]
-            return NotUnderstood((token.start, token.end), expected)
-        return NotUnderstood((len(text), len(text)), expected)
+        if trace.furthest >= len(tokens):
+            return NotUnderstood((len(text), len(text)), expected)
+        token = tokens[trace.furthest]
+        nearest = self._repairer.like(token.text, NEAREST_MIN)[:1] if token.text.isalpha() else ()
+        return NotUnderstood((token.start, token.end), expected, nearest[0] if nearest else None)
+
+
+def _acts(
+    tokens: tuple[Token, ...],
+    clauses: tuple[Clause, ...],
+    corrects: bool,
+    is_control: Callable[[Form], bool],
+    repaired: str | None = None,
+) -> tuple[DialogueAct, ...]:
+    return tuple(
+        DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end), repaired)
+        for clause in _ordered(clauses, corrects, is_control)
+    )
 
 
 class _Attempt:
     """The search through one utterance: what can be made of the tokens from each position on, found once."""
 
-    def __init__(self, tokens: tuple[Token, ...], lattice: Lattice, machine: Machine) -> None:
+    def __init__(self, tokens: tuple[Token, ...], lattice: Lattice, machine: Machine, steps: int) -> None:
         self.trace = Trace()
+        self.steps = steps
+        self._depth = 0
         self._count = len(tokens)
         self._lattice = lattice
         self._machine = machine
@@ -90,17 +161,24 @@ class _Attempt:
         return None if found is None else (replace(found[0], before=before), *found[1:])
 
     def _read_from(self, start: int) -> tuple[Clause, ...] | None:
-        trace = Trace()
+        if self._depth >= CLAUSES_MAX:
+            return None
+        self._depth += 1
+        trace = Trace(steps=self.steps)
         found = None
         for count, ((function, form), end) in enumerate(
             self._machine.readings(start, self._lattice.edges, self._lattice.may_end, trace)
         ):
+            self.steps = trace.steps
             rest = self.clauses(end)
+            trace.steps = self.steps
             if rest is not None:
                 found = (Clause(function, form, start, end), *rest)
                 break
             if count >= READINGS_MAX:
                 break
+        self._depth -= 1
+        self.steps = max(self.steps, trace.steps)
         if trace.furthest > self.trace.furthest:
             self.trace = trace
         return found
@@ -118,28 +196,24 @@ class _Attempt:
         return at, before
 
 
-def _ordered(clauses: tuple[Clause, ...], corrects: bool) -> tuple[Clause, ...]:
+def _ordered(clauses: tuple[Clause, ...], corrects: bool, is_control: Callable[[Form], bool]) -> tuple[Clause, ...]:
     """What was said to come first, first; and pleasantries only where nothing else was said."""
     ordered: list[Clause] = []
     for clause in clauses:
         ordered.insert(max(len(ordered) - 1, 0) if clause.before else len(ordered), clause)
     if any(clause.function not in _SOCIAL for clause in ordered):
         ordered = [clause for clause in ordered if clause.function not in _SOCIAL]
-    return tuple(_corrected(ordered, corrects))
+    return tuple(_corrected(ordered, corrects, is_control))
 
 
-def _corrected(clauses: list[Clause], corrects: bool) -> list[Clause]:
-    """ "no, turn left" corrects; "no, stop" stops."""
-    if corrects and clauses[0].function in (Function.INSTRUCT, Function.FRAGMENT) and clauses[0].form != _STOP:
-        return [replace(clauses[0], function=Function.CORRECT), *clauses[1:]]
-    if len(clauses) < 2 or clauses[0].function is not Function.DENY:
+def _corrected(clauses: list[Clause], corrects: bool, is_control: Callable[[Form], bool]) -> list[Clause]:
+    """ "no, turn left" and "I mean left" correct; "no, stop" stops."""
+    if len(clauses) > 1 and clauses[0].function is Function.DENY:
+        corrects, clauses = clauses[1].function is not Function.QUESTION, clauses[1:]
+    first, *others = clauses
+    if not corrects or is_control(first.form) or first.function not in (Function.INSTRUCT, Function.FRAGMENT):
         return clauses
-    first, *others = clauses[1:]
-    if first.form == _STOP or first.function is Function.DENY:
-        return [first, *others]
-    if first.function in (Function.INSTRUCT, Function.FRAGMENT):
-        return [replace(first, function=Function.CORRECT), *others]
-    return clauses
+    return [replace(first, function=Function.CORRECT), *others]
 
 
 @cache
