@@ -1,38 +1,39 @@
-"""A robot with a body without physics, as a process of its own: ``python -m benchmarks._stub URL``."""
+"""A robot whose wheels are watched, as a process of its own: ``python -m benchmarks._stub URL``."""
 
 from __future__ import annotations
 
 import argparse
+import json
 import math
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from importlib.resources import files
+from typing import cast
 
 import numpy as np
 
 from robot import turtlebot3 as tb3
-from robot.body import CameraModel, Image, Limits, Odometry, Scan
+from robot.body import Body, CameraModel, Image, Limits, Odometry, Scan
 from robot.bridge import Bridge
-from robot.control import Robot, read_boot
+from robot.control import PERIOD_S, Robot, read_boot
 from robot.geometry import ORIGIN, Pose
 from robot.pacing import parse_speed, run
 from robot.process import stop_on_signals
+from robot.sightings import Markers
+from voxml.scene import find_scene
 
 ROOM_HALF_M = 3.0  # a square room about the origin
 SCAN_PERIOD_S = 0.2
-ANGLES_RAD = np.arange(360) * (math.tau / 360)
+ANGLES_RAD = np.arange(360, dtype=np.float64) * (math.tau / 360)
 
 
 class StubBody:
-    """Exact kinematics at once, and a laser that sees a square room; nothing can be touched.
+    """Exact kinematics, obeyed at once, and a laser that sees a square room; nothing can be touched."""
 
-    ``heed`` is called with every command to the wheels, and ``step`` takes no longer than it must.
-    """
-
-    def __init__(self, start: Pose, heed: Callable[[float, float], None]) -> None:
+    def __init__(self, start: Pose) -> None:
         self._pose = start
-        self._heed = heed
         self._speed = (0.0, 0.0)
         self._time_s = 0.0
         self._scanned_s = -math.inf
@@ -51,7 +52,6 @@ class StubBody:
 
     def drive(self, linear_mps: float, angular_radps: float) -> None:
         self._speed = (linear_mps, angular_radps)
-        self._heed(linear_mps, angular_radps)
 
     def step(self, duration_s: float) -> None:
         linear_mps, angular_radps = self._speed
@@ -67,13 +67,14 @@ class StubBody:
             return None
         self._scanned_s = self._time_s
         bearings = ANGLES_RAD + self._pose.yaw_rad
-        with np.errstate(divide="ignore"):
-            ahead = (np.sign(np.cos(bearings)) * ROOM_HALF_M - self._pose.x_m) / np.cos(bearings)
-            aside = (np.sign(np.sin(bearings)) * ROOM_HALF_M - self._pose.y_m) / np.sin(bearings)
-        ranges = np.minimum(ahead, aside)
+        along, across = np.cos(bearings), np.sin(bearings)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ahead = (np.sign(along) * ROOM_HALF_M - self._pose.x_m) / along
+            aside = (np.sign(across) * ROOM_HALF_M - self._pose.y_m) / across
+        ranges = np.fmin(ahead, aside)
         laser = tb3.LASER
-        seen = (ranges >= laser.min_range_m) & (ranges <= laser.max_range_m)
-        return Scan(self._time_s, ANGLES_RAD, np.where(seen, ranges, np.inf), laser.min_range_m, laser.max_range_m)
+        ranges[(ranges < laser.min_range_m) | (ranges > laser.max_range_m)] = np.inf
+        return Scan(self._time_s, ANGLES_RAD, ranges, laser.min_range_m, laser.max_range_m)
 
     def image(self) -> Image | None:
         return None
@@ -82,36 +83,69 @@ class StubBody:
         """Nothing to let go of."""
 
 
-class Watch:
-    """Notes when the wheels come to a stand, and how punctual the control periods are, by the machine's own clock."""
+class Watched:
+    """A body that notes, by the machine's own clock, when its wheels come to a stand and when each period begins.
 
-    def __init__(self, report_stops: bool) -> None:
-        self._report_stops = report_stops
+    The n-th of the control periods is due n periods after the first; with the periods' beginnings known, the schedule
+    that suits them best is the one that makes none early.
+    """
+
+    def __init__(self, body: Body, tell_stops: bool) -> None:
+        self._body = body
+        self._tell_stops = tell_stops
         self._rolling = False
+        self.began_s: list[float] = []
 
-    def heed(self, linear_mps: float, angular_radps: float) -> None:
+    def __getattr__(self, name: str) -> object:
+        return getattr(self._body, name)
+
+    def drive(self, linear_mps: float, angular_radps: float) -> None:
+        self._body.drive(linear_mps, angular_radps)
         rolls = linear_mps != 0.0 or angular_radps != 0.0
-        if self._rolling and not rolls and self._report_stops:
+        if self._tell_stops and self._rolling and not rolls:
             print(time.monotonic(), flush=True)
         self._rolling = rolls
 
+    def step(self, duration_s: float) -> None:
+        self.began_s.append(time.monotonic())
+        self._body.step(duration_s)
+
+    def lateness_s(self, since_s: float) -> list[float]:
+        """Of each period that began after ``since_s``."""
+        off = [began_s - n * PERIOD_S for n, began_s in enumerate(t for t in self.began_s if t > since_s)]
+        return [each - min(off) for each in off]
+
 
 def main(arguments: Sequence[str] | None = None) -> None:
-    """Run until a signal comes."""
+    """Run until a signal comes; then print the lateness of the periods if they were asked for."""
     parser = argparse.ArgumentParser()
     parser.add_argument("url")
     parser.add_argument("--namespace", default="")
     parser.add_argument("--speed", default="1")
+    parser.add_argument("--world", help="drive the simulated robot in this world instead of a body without physics")
     parser.add_argument("--stops", action="store_true", help="print the time whenever the wheels come to a stand")
+    parser.add_argument("--lateness", type=float, help="count the periods from this time on; print them at the end")
     read = parser.parse_args(arguments)
     stopping = threading.Event()
     stop_on_signals(stopping)
     bridge = Bridge(read.url, read.namespace)
     boot = bridge.open()
     record = read_boot(boot)
-    body = StubBody(ORIGIN if record is None else record.pose, Watch(read.stops).heed)
-    run(Robot(body, bridge, boot=boot), parse_speed(read.speed), stopping)
+    start = ORIGIN if record is None else record.pose
+    bare, markers = (StubBody(start), None) if read.world is None else _simulated(read.world)
+    body = Watched(bare, read.stops)
+    run(Robot(cast(Body, body), bridge, boot=boot, markers=markers), parse_speed(read.speed), stopping)
     bridge.close()
+    if read.lateness is not None:
+        print(json.dumps(body.lateness_s(read.lateness)))
+
+
+def _simulated(world: str) -> tuple[Body, Markers]:
+    from robot.pybullet_body import PybulletBody
+
+    scene = find_scene(world, files("corpora").joinpath("worlds"))
+    body = PybulletBody(scene)
+    return body, Markers(body.camera, scene.marker_size_m)
 
 
 if __name__ == "__main__":
