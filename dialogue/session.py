@@ -11,6 +11,7 @@ from robot.geometry import Point, Pose, wrap_angle
 from robot.messages import Command, Control
 
 from .events import Pointing
+from .plans import Deferred
 from .table import Activity, State
 
 # A robot this near to where its last movement ideally ended is reckoned from that ideal, as the robot itself does.
@@ -29,6 +30,14 @@ class Task:
     def moves(self) -> bool:
         """Whether it takes its turn in the robot's queue, rather than acting at once."""
         return not isinstance(self.command, Control) or self.command in (Control.GO_BACK, Control.TAKE_PICTURE)
+
+
+@dataclass(frozen=True, slots=True)
+class Agenda:
+    """What is left to be done when something has happened. ``since_s`` is when waiting for time to pass began."""
+
+    deferred: Deferred
+    since_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +63,8 @@ _UNKNOWN = World()
 class Session:
     """One conversation. ``ideal`` is where the robot's last movement ends, or ended, if nothing goes wrong.
 
-    ``pointings`` are those not yet used, the newest last. ``place`` is the place last spoken of.
+    ``pointings`` are those not yet used, the newest last. ``place`` is the place last spoken of. ``name`` begins the
+    id of every command: where several conversations reach one robot, each has its own.
     """
 
     state: State = State.IDLE
@@ -63,10 +73,17 @@ class Session:
     located: bool = False
     tasks: tuple[Task, ...] = ()
     sent: int = 0
+    name: str = "k"
     ideal: Pose | None = None
     question: Question | None = None
+    agenda: Agenda | None = None
     pointings: tuple[Pointing, ...] = ()
     place: Point | None = None
+
+    @property
+    def moving(self) -> bool:
+        """Whether movements were sent that have not ended."""
+        return any(task.moves for task in self.tasks)
 
     @property
     def start(self) -> Pose:
@@ -74,7 +91,7 @@ class Session:
         here, ideal = self.world.robot, self.ideal
         if ideal is None or self.activity in (Activity.STRAYED, Activity.LEFT_OVER):
             return here
-        if any(task.moves for task in self.tasks):
+        if self.moving:
             return ideal
         astray = here.point.distance_to(ideal.point) > _IDEAL_WITHIN_M
         return here if astray or abs(wrap_angle(here.yaw_rad - ideal.yaw_rad)) > _IDEAL_WITHIN_RAD else ideal

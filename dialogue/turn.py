@@ -60,7 +60,7 @@ class Turn:
     def dispatch(self, commands: tuple[Command, ...]) -> None:
         """Send commands; they are tasks until the robot says that they ended."""
         first = self.session.sent + 1
-        tasks = tuple(Task(f"k{first + offset}", command) for offset, command in enumerate(commands))
+        tasks = tuple(Task(f"{self.session.name}{first + offset}", command) for offset, command in enumerate(commands))
         self.outputs.append(Dispatch(commands, tuple(task.id for task in tasks)))
         ideal = self.session.start
         for command in commands:

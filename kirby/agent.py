@@ -62,7 +62,8 @@ class Agent:
     """One conversation about one robot.
 
     ``world`` says what each fiducial stands for (a scene: nothing is seen yet), or gives the whole world model.
-    ``clock`` is read only where a call gives no ``time_s``. Every method that takes something in returns the outputs.
+    ``clock`` is read only where a call gives no ``time_s``. ``name`` begins every command's id: give each conversation
+    its own where several reach one robot. Every method that takes something in returns the outputs.
     """
 
     def __init__(
@@ -71,10 +72,11 @@ class Agent:
         lexicon: Lexicon | None = None,
         robot: RobotPort | None = None,
         clock: Callable[[], float] = time.monotonic,
+        name: str = "k",
     ) -> None:
         model = World.unexplored(world) if isinstance(world, Scene) else world or World()
         self._lexicon = lexicon or load_lexicon()
-        self._manager = self._manage(Session(world=model))
+        self._manager = self._manage(Session(world=model, name=name))
         self._robot = robot
         self._clock = clock
 

@@ -6,6 +6,7 @@ was started is gone afterwards.
 
 from __future__ import annotations
 
+import secrets
 import sys
 import threading
 import time
@@ -140,7 +141,9 @@ def _conversation(
         folder = stack.enter_context(StateFolder(options.state)).path
         url = options.redis or stack.enter_context(RedisServer(folder)).url
         link = stack.enter_context(closing(RobotLink(url, options.namespace)))
-        conversation = Conversation(Agent(world=scene, lexicon=lexicon), link.send, show)
+        conversation = Conversation(
+            Agent(world=scene, lexicon=lexicon, name=f"{secrets.token_hex(4)}-"), link.send, show
+        )
         link.start(conversation.deliver)
         robot = None
         if options.redis is None or (options.world is not None and not link.alive()):
