@@ -1,7 +1,8 @@
 """The dialogue manager: events in, outputs out, nothing else."""
 
 from .manager import DialogueManager
-from .planning import Plan, Planning, Refusal, Refused, plan
+from .planning import plan
+from .plans import Plan, Planning, Refusal, Refused
 from .session import Question, Session, Task
 from .table import Activity, State
 

@@ -46,7 +46,7 @@ def no(turn: Turn, time_s: float) -> None:
         turn.say("Okay, I won't.")
     elif turn.session.activity is Activity.STRAYED:
         obey(turn, (instruct(Term("go_back")),), time_s)
-    elif any(task.moves for task in turn.session.tasks):
+    elif turn.session.moving:
         obey(turn, (instruct(Term("cancel")),), time_s)
     else:
         turn.say("Okay.")

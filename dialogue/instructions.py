@@ -11,13 +11,19 @@ from robot.messages import Command, Control
 
 from .events import Tone
 from .fusion import demonstratives, fuse, recent
-from .planning import Plan, Refusal, Refused, plan
-from .session import Question
+from .planning import plan
+from .plans import Plan, Refusal, Refused
+from .session import Agenda, Question
 from .table import Activity, Trigger
 from .turn import Turn
 from .wording import command_words, listed, name_entities, refused, unresolved
 
 STOP = Term("stop")
+_PASSING = frozenset({Control.STOP, Control.CONTINUE, Control.KEEP_GOING, Control.QUEUE, Control.TAKE_PICTURE})
+"""Commands that leave what is being done as it is, or take it up again."""
+
+_CLEARING = frozenset({Control.CANCEL, Control.CANCEL_ALL, Control.GO_BACK, Control.STOP_PATROL})
+"""Commands that get out of the way what would keep the robot from a new movement."""
 
 
 def stops(form: Form) -> bool:
@@ -39,7 +45,7 @@ def obey(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
         sure = tuple(replace(act, repaired=None) for act in acts)
         turn.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {repaired[0]}?", sure))
         return
-    _carry_out(turn, _fused(turn, acts, time_s))
+    carry_out(turn, _fused(turn, acts, time_s))
 
 
 def _fused(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> tuple[DialogueAct, ...]:
@@ -57,7 +63,8 @@ def _fused(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> tuple[Di
     return tuple(fused)
 
 
-def _carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
+def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
+    """Plan acts whose demonstratives are filled in, and send the plan, or ask, or refuse."""
     world = turn.session.world.with_robot(turn.session.start)
     outcome = plan(tuple(act.form for act in acts), world, turn.lexicon)
     match outcome:
@@ -83,7 +90,13 @@ def _carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
 
 def _send(turn: Turn, made: Plan) -> None:
     """Send a plan, unless the robot would refuse it where it is: then offer what would have to be done first."""
+    if not set(made.commands) <= _PASSING:
+        turn.update(agenda=None)
+    if made.then is not None:
+        turn.update(agenda=Agenda(made.then))
     if not made.commands:
+        if made.then is not None:
+            turn.say("Okay.")
         return
     moving = [c for c in made.commands if not isinstance(c, Control)]
     turn.highlight(tuple(entity.id for entity in made.entities), made.places)
@@ -91,7 +104,7 @@ def _send(turn: Turn, made: Plan) -> None:
         world=turn.session.world.speaking_of(tuple(entity.id for entity in reversed(made.entities))),
         place=made.places[-1] if made.places else turn.session.place,
     )
-    first = _in_the_way(turn) if moving else None
+    first = _in_the_way(turn) if moving and not _CLEARING & set(made.commands) else None
     if first is None:
         turn.dispatch(made.commands)
         return

@@ -6,6 +6,7 @@ from grammar.acts import DialogueAct, Function, NotUnderstood
 from grammar.forms import Term
 from voxml.vocabulary import Lexicon
 
+from .agenda import go_on
 from .answers import answer, ask_again, no, pointed, yes
 from .events import (
     CameraMove,
@@ -70,7 +71,8 @@ class DialogueManager:
             case WorldUpdate():
                 _perceive(turn, event)
             case Tick():
-                pass
+                pass  # time is looked at below, whatever it comes with
+        go_on(turn, event.time_s)
         self.session = turn.session
         return tuple(turn.outputs)
 

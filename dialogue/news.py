@@ -81,7 +81,7 @@ def _follow(turn: Turn, event: RobotFeedback) -> None:
     activity = _ACTIVITY.get(feedback.code)
     if feedback.code is Code.PAUSED and feedback.id is None:
         _left_over(turn)
-    elif feedback.code is Code.READY and any(task.moves for task in turn.session.tasks):
+    elif feedback.code is Code.READY and turn.session.moving:
         return  # said before it read what was sent
     elif feedback.code in ENDINGS and _is_done(turn):
         turn.robot_is(Activity.RESTING)
@@ -94,7 +94,7 @@ def _follow(turn: Turn, event: RobotFeedback) -> None:
 def _is_done(turn: Turn) -> bool:
     """Whether what ended was the last of what was sent."""
     moving = turn.session.activity in (Activity.MOVING, Activity.PATROLLING)
-    return moving and not any(task.moves for task in turn.session.tasks)
+    return moving and not turn.session.moving
 
 
 def _left_over(turn: Turn) -> None:

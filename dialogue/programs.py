@@ -65,10 +65,11 @@ _FITS: Mapping[str, Callable[[Form], bool]] = {
 }
 
 
-def bind(entry: ProgramEntry, args: tuple[Form, ...]) -> dict[str, Form] | None:
+def bind(entry: ProgramEntry, args: tuple[Form, ...], endless: bool = False) -> dict[str, Form] | None:
     """The arguments of a form, by the variables of its program; defaults where nothing was said.
 
     An argument goes to the first variable that is still free and whose type it fits. None when one fits nowhere.
+    ``endless`` takes for the default of an amount not this much but as much as there is.
     """
     bound: dict[str, Form] = {}
     for value in args:
@@ -78,8 +79,15 @@ def bind(entry: ProgramEntry, args: tuple[Form, ...]) -> dict[str, Form] | None:
         bound[slot.variable] = value
     for arg in entry.args:
         if arg.default is not None:
-            bound.setdefault(arg.variable, arg.default)
+            bound.setdefault(arg.variable, _most(arg) if endless else arg.default)
     return bound
+
+
+def _most(argument: Argument) -> Form:
+    assert argument.default is not None
+    if "length" in argument.types:
+        return Term("max")
+    return Quantity(360.0, Unit.DEGREE) if "angle" in argument.types else argument.default
 
 
 def _fits(argument: Argument, value: Form) -> bool:

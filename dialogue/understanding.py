@@ -10,7 +10,8 @@ from grounding import Ambiguous, Unresolved, World
 from robot.messages import encode_command
 from voxml.vocabulary import Lexicon
 
-from .planning import Plan, Refusal, Refused, plan
+from .planning import plan
+from .plans import Plan, Refusal, Refused
 from .turn import Parser
 from .wording import listed, name_entities, not_understood, refused, unresolved
 
@@ -46,7 +47,7 @@ def _planned(
     text: str, act: str, form: str, instructions: tuple[DialogueAct, ...], world: World | None, lexicon: Lexicon
 ) -> dict[str, Any]:
     forms = tuple(_to_be_done(each, lexicon) for each in instructions)
-    outcome = plan(forms, world or _NOWHERE, lexicon)
+    outcome = plan(forms, world, lexicon)
     match outcome:
         case Plan(commands):
             return _record(text, "ok", act, form, [encode_command(command) for command in commands])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from grammar.acts import NotUnderstood
 from grammar.forms import Form, Name, Quantity, Term
@@ -11,7 +11,7 @@ from grounding.descriptions import PLURAL
 from grounding.ordering import ORDERINGS
 from robot.messages import Command, Control, GoForward, GoTo, Patrol, Side, Turn, format_number
 
-from .planning import Refusal, Refused
+from .plans import Refusal, Refused
 
 _EXPECTED_MAX = 6
 _UNITS = {"m": "meter", "deg": "degree", "s": "second"}
@@ -65,10 +65,16 @@ def phrase(form: Form) -> str:
             return _words(pred)
         case Term(pred=pred, args=(first, *modifiers)):
             inner = " ".join(phrase(m) for m in modifiers if not _is_pointing(m))
+            if pred == "the" and _is_numbered(modifiers):
+                return f"{phrase(first)} {inner}"
             if pred in PLURAL and pred != "every":
                 return f"{_words(pred)} {phrase(first)}s {inner}".strip()
             return f"{_words(pred)} {phrase(first)} {inner}".strip()
     raise AssertionError(form)
+
+
+def _is_numbered(parts: Iterable[Form]) -> bool:
+    return any(isinstance(part, Term) and part.pred == "number" for part in parts)
 
 
 def _is_pointing(form: Form) -> bool:
@@ -81,8 +87,7 @@ def _indefinite(form: Form) -> str:
         core = form.args[0]
         if not (isinstance(core, Term) and core.pred in ORDERINGS):
             rest = phrase(Term("the", form.args)).removeprefix("the ")
-            numbered = any(isinstance(part, Term) and part.pred == "number" for part in form.args)
-            return rest if numbered else f"{'an' if rest[0] in 'aeiou' else 'a'} {rest}"
+            return rest if _is_numbered(form.args) else f"{'an' if rest[0] in 'aeiou' else 'a'} {rest}"
     return phrase(form)
 
 
@@ -127,6 +132,13 @@ def not_understood(text: str, failure: NotUnderstood) -> str:
     hint = f": I expected {listed(expected).rstrip(' .')}" if expected else ""
     nearest = f" Did you mean '{failure.nearest}'?" if failure.nearest else ""
     return f"{said}{hint}.{nearest}"
+
+
+def unmet(condition: Term) -> str:
+    """Said when what was to happen on the way did not."""
+    if condition.pred in ("see", "perceive", "find", "exists") and condition.args:
+        return f"I did not find {phrase(condition.args[-1])}."
+    return f"I have come to an end before it was so: {phrase(condition)}."
 
 
 _REFUSALS = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 
-from robot.geometry import Point
+from robot.geometry import Point, Pose, Segment
 
 from .entities import Entity
 from .relations import COMPASS_RAD
@@ -15,6 +15,9 @@ CLEAR_M = 0.5
 
 BEFORE = frozenset({"path.goal", "path.direction", "path.via", "RCC8.DC", "RCC8.EC"})
 """Relations whose place, for a thing that one can stand before, is where one stands before it."""
+
+_OPEN_M = 5.0  # where the map shows no wall ahead
+_SHORT_OF_WALL_M = 0.4
 
 _Place = Callable[[Point, Entity], Point]
 
@@ -60,3 +63,18 @@ _PLACES: Mapping[str, _Place] = {
     "RCC8.NTPP": lambda robot, thing: thing.point,
     **{f"cardinal.{name}": _on_map(yaw_rad) for name, yaw_rad in COMPASS_RAD.items()},
 }
+
+
+def free_way_m(heading: Pose, walls: tuple[Segment, ...]) -> float:
+    """How far the robot can drive straight on until the first wall that the map shows, with room left to turn."""
+    ahead = [distance_m for wall in walls if (distance_m := _crossing_m(heading, wall)) is not None]
+    return max(min(ahead, default=_OPEN_M + _SHORT_OF_WALL_M) - _SHORT_OF_WALL_M, 0.0)
+
+
+def _crossing_m(heading: Pose, wall: Segment) -> float | None:
+    """How far ahead the heading line meets a wall; None where it does not."""
+    a, b = heading.to_local(wall.start), heading.to_local(wall.end)
+    if a.y_m * b.y_m > 0 or a.y_m == b.y_m:
+        return None
+    x_m = a.x_m + (b.x_m - a.x_m) * a.y_m / (a.y_m - b.y_m)
+    return x_m if x_m > 0 else None
