@@ -71,6 +71,8 @@ class Fluency:
         word = tokens[at].text
         if word.endswith("-"):
             return True
+        if kept and self._numbers.is_unit(word) and self._is_number(kept[-1].text):
+            return False
         if len(word) == 1 and word.isalpha() and (not kept or not self._is_number(kept[-1].text)):
             return not self._begins_phrase(tokens, at)
         following = [token.text for token in tokens[at + 1 : at + 3] if token.text not in self._fillers]

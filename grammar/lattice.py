@@ -11,7 +11,7 @@ from .machine import Edge
 from .numbers import NumberReader
 from .tokens import MARKS, Token
 
-AMOUNT_TERMINALS = ("QTY", "QTY_MORE", "NUMBER", "CARDINAL")
+DERIVED_TERMINALS = ("QTY", "QTY_MORE", "NUMBER", "CARDINAL", "PREDICATIVE")
 SEPARATORS = frozenset({"AND", "THEN", "BEFORE_THAT", "BUT"})
 CLAUSE_OPENERS = frozenset(
     {"VERB", "VERB_ING", "LEAD", "LEAD_ING", "LEAD_TO", "LEAD_PAST", "LIGHT", "IF", "UNTIL", "FORBID"}
@@ -64,6 +64,7 @@ class WordReader:
         self._lexicon = lexicon
         self._numbers = numbers
         self._skips = _by_first(word.words for word in lexicon.closed.words_of("skip"))
+        self._copulas = frozenset(lexicon.closed.table("BE"))
         self._names = frozenset(lexicon.closed.table("address"))
         self._refusals = frozenset(lexicon.closed.table("NO"))
         self._clock = frozenset(lexicon.closed.table("clock"))
@@ -76,6 +77,8 @@ class WordReader:
             end = at + len(sense.words)
             if tuple(texts[at:end]) == sense.words:
                 found.append(Edge(sense.category, sense.value, end))
+                if sense.category == "ADJECTIVE" and at and texts[at - 1] in self._copulas:
+                    found.append(Edge("PREDICATIVE", sense.value, end))
         found.sort(key=_preference)
         opens = at == 0 or texts[at - 1] in MARKS
         if opens and word in self._refusals:

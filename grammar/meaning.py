@@ -11,7 +11,7 @@ from . import phrases
 from .acts import Function
 from .arguments import Arg, Args, ArgumentFitter, Kind
 from .machine import Action, Refused
-from .phrases import YOU, Nominal, Pre
+from .phrases import YOU, Nominal, Pre, Such
 
 Act = tuple[Function, Form]
 _IMPLIED = ("turn", "go", "sidestep")
@@ -248,6 +248,7 @@ _PLAIN: dict[str, Action] = {
     "toward_heading": lambda mark, heading: Term("to", (heading,)),
     "at_place": lambda place: place,
     "that_facing": lambda *parts: Term("in_front_of", (YOU,)),
+    "that_such": lambda that, quality: Such(quality),
     "that_seen": lambda *parts: Term("visible"),
     "where_thing": lambda that, thing, be, *post: Term("with", (thing, *post)),
     "where_seen": lambda that, you, see, thing: Term("with", (thing,)),
@@ -274,5 +275,7 @@ _PLAIN: dict[str, Action] = {
     "is_a": lambda what, be, thing: Term("is", (what, thing)),
     "is_not": lambda what, be, mark, thing: Term("not", (Term("is", (what, thing)),)),
     "i_see": lambda you, see, what: Term("see", (what,)),
+    "is_where": lambda what, be, where: Term("is", (what, where)),
+    "is_such": lambda what, be, quality: Term("is", (what, quality)),
     "there_is": lambda there, what: Term("exists", (what,)),
 }

@@ -40,15 +40,24 @@ class Pre:
     is_ordering: bool
 
 
-def nominal(noun: Form, pres: tuple[Pre, ...] = (), posts: tuple[Form, ...] = ()) -> Nominal:
+@dataclass(frozen=True, slots=True)
+class Such:
+    """An adjective behind the noun: "the box that is red" is the red box."""
+
+    quality: Term
+
+
+def nominal(noun: Form, pres: tuple[Pre, ...] = (), posts: tuple[Form | Such, ...] = ()) -> Nominal:
     """A noun with what was said before and after it."""
     plural = isinstance(noun, Term) and noun.pred == "plural"
     bare = noun.args[0] if isinstance(noun, Term) and plural else noun
     adjectives = tuple(pre.form for pre in pres if not pre.is_ordering and isinstance(pre.form, Term))
-    return Nominal(bare, plural, adjectives, tuple(pre.form for pre in pres if pre.is_ordering), posts)
+    adjectives += tuple(post.quality for post in posts if isinstance(post, Such))
+    orderings = tuple(pre.form for pre in pres if pre.is_ordering)
+    return Nominal(bare, plural, adjectives, orderings, tuple(post for post in posts if not isinstance(post, Such)))
 
 
-def headless(pres: tuple[Pre, ...], posts: tuple[Form, ...] = ()) -> Nominal:
+def headless(pres: tuple[Pre, ...], posts: tuple[Form | Such, ...] = ()) -> Nominal:
     """ "the first", "the nearest on the left": a noun is understood; "the red" is not English for a thing."""
     if not any(pre.is_ordering and isinstance(pre.form, Term) for pre in pres):
         raise Refused("a noun")

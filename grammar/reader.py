@@ -14,7 +14,7 @@ from voxml.vocabulary import Lexicon
 from .acts import DialogueAct, Function, NotUnderstood
 from .disfluency import Fluency
 from .expectations import describe_expected
-from .lattice import AMOUNT_TERMINALS, Lattice, WordReader
+from .lattice import DERIVED_TERMINALS, Lattice, WordReader
 from .machine import Machine, Tables, Trace, build_tables
 from .meaning import Meaning
 from .numbers import NumberReader
@@ -105,16 +105,23 @@ class Reader:
             attempt = self._attempt(changed, steps)
             clauses = attempt.clauses(0)
             steps = attempt.steps
-            if clauses:
+            if clauses and self._is_likely(texts, clauses):
                 said = None if all(clause.form == _STOP for clause in clauses) else " ".join(proposal)
                 return _acts(changed, clauses, corrects, self._is_control, said)
         return None
+
+    def _is_likely(self, texts: list[str], clauses: tuple[Clause, ...]) -> bool:
+        """Whether a repaired reading may be asked about: no order out of a question, nothing out of loose words."""
+        functions = {clause.function for clause in clauses}
+        if Function.FRAGMENT in functions and len(clauses) > 1:
+            return False
+        return texts[0] not in self._asking or Function.INSTRUCT not in functions
 
     @cached_property
     def _repairer(self) -> Repairer:
         from .repair import Repairer  # its search is only imported where something was not understood
 
-        return Repairer(self._fluency.vocabulary)
+        return Repairer(self._fluency.vocabulary, self._halting)
 
     def _not_understood(self, text: str, tokens: tuple[Token, ...], trace: Trace) -> NotUnderstood:
         expected = describe_expected(self._tables.expected(trace.state), trace)
@@ -222,6 +229,6 @@ def _language(language: str) -> str:
 
 
 def _machine(lexicon: Lexicon, language: str, meaning: Meaning) -> tuple[Machine, Tables]:
-    terminals = {*AMOUNT_TERMINALS, *lexicon.categories(), *lexicon.closed.classes}
+    terminals = {*DERIVED_TERMINALS, *lexicon.categories(), *lexicon.closed.classes}
     tables = build_tables(_language(language), terminals, meaning.action)
     return Machine(tables), tables

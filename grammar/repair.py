@@ -9,10 +9,8 @@ from itertools import islice, product
 from rapidfuzz import process
 from rapidfuzz.distance import OSA
 
-from .tokens import MARKS
-
-LIKE_MIN = 0.6
-KNOWN_LIKE_MIN = 0.74
+LIKE_MIN = 0.66
+SHORT_CHARS = 4  # shorter words must begin alike
 SOUND_LIKE = 0.9
 CANDIDATES_MAX = 5
 UNKNOWN_MAX = 3
@@ -41,41 +39,54 @@ def sound_key(word: str) -> str:
 class Repairer:
     """Proposes texts in which single words are replaced by known ones."""
 
-    def __init__(self, vocabulary: frozenset[str]) -> None:
+    def __init__(self, vocabulary: frozenset[str], first: frozenset[str]) -> None:
+        """``first`` are the words that go before others as much alike."""
+        self._first = first
         self._words = tuple(sorted(word for word in vocabulary if word.isalpha() and len(word) > 1))
         self._sounds: dict[str, list[str]] = {}
         for word in self._words:
             self._sounds.setdefault(sound_key(word), []).append(word)
 
     def proposals(self, texts: Sequence[str], unknown: Sequence[int], furthest: int) -> Iterator[tuple[str, ...]]:
-        """Texts to try, the likeliest first: every unknown word replaced, or the known one where reading stopped."""
-        if len(unknown) > UNKNOWN_MAX:
+        """Texts to try, the likeliest first: every unknown word replaced, or the known one where reading stopped.
+
+        More than one unknown word in three is another language, not a slip; a known word is only taken for another of the
+        same sound.
+        """
+        if unknown and (len(unknown) > UNKNOWN_MAX or 3 * (len(unknown) - 1) >= len(texts)):
             return
-        places = list(unknown) or [at for at in (furthest, furthest - 1) if 0 <= at < len(texts)]
         if unknown:
-            choices = [self.like(texts[at], LIKE_MIN) for at in places]
+            choices = [self.like(texts[at], LIKE_MIN) for at in unknown]
             for words in islice(product(*choices), ATTEMPTS_MAX):
-                yield _replaced(texts, places, words)
+                yield _replaced(texts, unknown, words)
             return
-        for at in places:
-            if texts[at] in MARKS:
-                continue
-            for word in self.like(texts[at], KNOWN_LIKE_MIN):
-                yield _replaced(texts, [at], (word,))
+        for at in (furthest, furthest - 1):
+            if 0 <= at < len(texts):
+                for word in self._sounding(texts[at]):
+                    yield _replaced(texts, [at], (word,))
 
     def like(self, word: str, least: float) -> tuple[str, ...]:
         """Known words that look or sound like this one, the most alike first; never the word itself."""
-        looks = process.extract(
+        found = process.extract(
             word, self._words, scorer=OSA.normalized_similarity, score_cutoff=least, limit=2 * CANDIDATES_MAX
         )
-        scores = {found: score for found, score, _ in looks}
-        for found in self._sounds.get(sound_key(word), ()):
-            likeness = OSA.normalized_similarity(word, found)
-            if likeness >= 1 / 3:
-                scores[found] = max(scores.get(found, 0.0), (SOUND_LIKE + likeness) / 2)
+        scores = {each: score for each, score, _ in found if len(word) > SHORT_CHARS or each[0] == word[0]}
+        for each in self._sounding(word):
+            scores[each] = max(scores.get(each, 0.0), (SOUND_LIKE + OSA.normalized_similarity(word, each)) / 2)
         scores.pop(word, None)
-        ranked = sorted(scores, key=lambda found: (-scores[found], abs(len(found) - len(word)), found))
+        ranked = sorted(
+            scores, key=lambda each: (-round(scores[each], 2), each not in self._first, abs(len(each) - len(word)), each)
+        )
         return tuple(ranked[:CANDIDATES_MAX])
+
+    def _sounding(self, word: str) -> tuple[str, ...]:
+        """Known words of the same sound, to the vowel: "right" for "write"."""
+        same = self._sounds.get(sound_key(word), ())
+        return tuple(each for each in same if each != word and _first_vowel(each) == _first_vowel(word))
+
+
+def _first_vowel(word: str) -> str:
+    return next((letter for letter in word if letter in "aeiouy"), "")
 
 
 def _replaced(texts: Sequence[str], places: Sequence[int], words: Sequence[str]) -> tuple[str, ...]:
