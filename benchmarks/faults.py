@@ -104,13 +104,13 @@ class _Siege:
             moments.pop()
             self._kill(victims.pop())
         self._close()
-        ids = [f"c{n}" for n in range(self._pushed)]
+        names = [f"c{n}" for n in range(self._pushed)]
         return {
             "commands": self._pushed,
             "robot_ended_by_itself": self._ended_by_itself,
             "robot_kills": self._killed["robot"],
             "redis_kills": self._killed["redis"],
-            "lost": sum(self._endings[id] == 0 for id in ids),
+            "lost": sum(self._endings[name] == 0 for name in names),
             "ended_twice": sum(count > 1 for count in self._endings.values()),
             "done": sum(self._codes[code] for code in SUCCESSES),
             "refused": self._codes["INVALID"],
