@@ -109,9 +109,12 @@ class WordReader:
         return found
 
 
-def _preference(edge: Edge) -> tuple[int, bool]:
-    """Longer phrases first; "down" is a way to go before it is "down the hallway", "one" a thing before it is a number."""
-    return -edge.end, edge.terminal in _SECOND_CHOICE
+def _preference(edge: Edge) -> tuple[int, int]:
+    """Longer phrases first; "down" is a way to go before it is "down the hallway", "one" a thing before it is a number.
+
+    A light verb leaves its meaning to what follows ("take three steps") before it is a verb of its own ("take the box").
+    """
+    return -edge.end, 0 if edge.terminal == "LIGHT" else 2 if edge.terminal in _SECOND_CHOICE else 1
 
 
 def _by_first(phrases: Iterable[tuple[str, ...]]) -> dict[str, tuple[tuple[str, ...], ...]]:

@@ -67,7 +67,7 @@ class NumberReader:
         at = self._skip_approximate(tokens, at)
         if more:
             at, more = self._skip_more(tokens, at, more)
-        found = self._amount_number(tokens, at)
+        found = self._whole_unit(tokens, at) or self._amount_number(tokens, at)
         if found is None:
             return None
         value, at = found
@@ -82,6 +82,11 @@ class NumberReader:
             total, at = total + rest[0], rest[1]
         at, more = self._skip_more(tokens, at, more, only_plain=True)
         return Amount(Quantity(round(total, 9), quantity.unit), more), at
+
+    def _whole_unit(self, tokens: Sequence[str], at: int) -> Read | None:
+        """One of a unit whose name begins like a number: "(a) quarter turn"."""
+        start = at + 1 if at < len(tokens) and tokens[at] in self._articles else at
+        return (1.0, start) if start < len(tokens) and tokens[start] in self._fractions and self._unit(tokens, start) else None
 
     def _skip_approximate(self, tokens: Sequence[str], at: int) -> int:
         """Past "about", "for", "at least", "maybe": the amount is taken as said."""
