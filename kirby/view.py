@@ -14,6 +14,7 @@ import redis
 
 from dialogue.events import Dispatch, Highlight, MoveCamera, Output, Pointing, Say, Utterance, WorldUpdate
 from dialogue.table import Activity
+from robot.geometry import Pose
 from robot.messages import Control, encode_command
 from voxml.vocabulary import Lexicon, load_lexicon
 from voxworld.front import Address, is_loopback
@@ -142,8 +143,8 @@ class View:
     def _tell_condition(self) -> None:
         agent, lost = self._conversation.agent, self._conversation.lost
         pose = agent.pose
-        place = "" if pose is None else f"at ({pose.x_m:.2f}, {pose.y_m:.2f}), facing {math.degrees(pose.yaw_rad):.0f}°"
-        state = agent.state if agent.asking else _DOING[agent.session.activity]
+        place = "" if pose is None else _place(pose)
+        state = _DOING[agent.session.activity] + (" - Kirby waits for an answer" if agent.asking else "")
         redis_lost = lost is not None and "Redis" in lost.reason
         condition = Condition(state, lost is None, not redis_lost, place, "" if lost is None else lost.reason)
         if condition != self._condition:
@@ -153,6 +154,12 @@ class View:
         if errands != self._errands:
             self._errands = errands
             self.world.show_errands(errands)
+
+
+def _place(pose: Pose) -> str:
+    # Adding 0 makes a plain nought of a negative one.
+    x_m, y_m = round(pose.x_m, 2) + 0.0, round(pose.y_m, 2) + 0.0
+    return f"at ({x_m:.2f}, {y_m:.2f}), facing {round(math.degrees(pose.yaw_rad))}°"
 
 
 def heads(lexicon: Lexicon) -> dict[str, str]:

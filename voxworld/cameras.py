@@ -16,7 +16,7 @@ BACK_MAX = 4
 ELEVATION_RAD = math.radians(62)
 ROBOT_EYE_M = (0.10, 0.22)  # ahead of the turning centre, above the floor
 CHASE_M = (0.55, 0.28)  # each step back: behind, and up
-MARGIN_M = 0.7
+MARGIN_M = 1.0  # also how much must be found before the picture is drawn back
 RADIUS_MIN_M = 2.0
 
 

@@ -63,7 +63,7 @@ def conversation_html(remarks: tuple[Remark, ...]) -> str:
     """
     rows = "".join(map(_remark_html, remarks[-REMARKS_MAX:]))
     return (
-        '<div style="display:flex;flex-direction:column-reverse;height:300px;overflow-y:auto;padding:8px">'
+        '<div style="display:flex;flex-direction:column-reverse;height:260px;overflow-y:auto;padding:8px">'
         '<div id="kirby-conversation" role="log" style="display:flex;flex-direction:column;gap:6px;'
         f'font:14px/1.35 system-ui,sans-serif">{rows}</div></div>'
     )

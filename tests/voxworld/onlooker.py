@@ -15,7 +15,8 @@ from dialogue.events import Gesture, Pointing, Utterance
 from voxworld.people import Person
 from voxworld.view import VoxWorld
 
-PATIENCE_S = 20.0
+PATIENCE_S = 60.0
+STILL_S = 1.0
 
 
 class RecordingHost:
@@ -68,17 +69,33 @@ def settled(world: VoxWorld, number: int = 0) -> Person:
     return person
 
 
-def on_screen(person: Person, place: tuple[float, float, float]) -> tuple[float, float]:
+def still(world: VoxWorld) -> Person:
+    """The only person, once their picture has stood still for a while: what is found draws it back."""
+    seen: list[tuple[float, object]] = []
+
+    def stands() -> Person | None:
+        person = settled(world)
+        now_s = time.monotonic()
+        if not seen or seen[0][1] != person.goal:
+            seen[:] = [(now_s, person.goal)]
+        return person if now_s - seen[0][0] > STILL_S else None
+
+    person: Person = until(stands)
+    return person
+
+
+def on_screen(page: Any, person: Person, place: tuple[float, float, float]) -> tuple[float, float]:
     """Where a place (map frame, z up) is seen, in pixels: a pinhole at the camera that the browser reports."""
-    camera = person.client.camera
+    box, camera = page.locator("canvas").first.bounding_box(), person.client.camera
     ahead = camera.look_at - camera.position
     ahead = ahead / np.linalg.norm(ahead)
     right = np.cross(ahead, (0.0, 0.0, 1.0))
     right = right / np.linalg.norm(right)
     offset = np.array(place) - camera.position
-    scale = camera.image_height / 2 / math.tan(camera.fov / 2) / float(offset @ ahead)
+    scale = box["height"] / 2 / math.tan(camera.fov / 2) / float(offset @ ahead)
     down = -float(offset @ np.cross(right, ahead))
-    return camera.image_width / 2 + scale * float(offset @ right), camera.image_height / 2 + scale * down
+    x_px, y_px = scale * float(offset @ right), scale * down
+    return box["x"] + box["width"] / 2 + x_px, box["y"] + box["height"] / 2 + y_px
 
 
 def heading_rad(person: Person) -> float:
@@ -88,6 +105,6 @@ def heading_rad(person: Person) -> float:
 
 
 def next_said(host: RecordingHost, kind: type) -> Any:
-    event = host.said.get(timeout=20)
+    event = host.said.get(timeout=60)
     assert isinstance(event, kind), event
     return event

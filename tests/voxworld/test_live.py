@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 import redis
-from onlooker import on_screen, settled, until
+from onlooker import on_screen, still, until
 
 from kirby.agent import Agent
 from kirby.conversation import Conversation
@@ -127,7 +127,7 @@ def drive(page: Any, text: str) -> None:
 def point(page: Any, view: View, place: tuple[float, float, float]) -> None:
     """Click where a place is seen, once the picture stands still."""
     before = view.world.pointed
-    page.mouse.click(*on_screen(settled(view.world), place))
+    page.mouse.click(*on_screen(page, still(view.world), place))
     until(lambda: view.world.pointed != before)
 
 
@@ -148,14 +148,14 @@ def test_seeing_pointing_talking_and_stopping(bus: RedisServer, client: Any, tmp
         drive(page, "go to that one")
         assert pose(client).point.distance_to(blue.point) < 0.6
 
-        say(page, "go back")
-        until(lambda: state(page) == "driving")
+        say(page, "patrol")
+        until(lambda: state(page) == "patrolling")
         page.locator("#kirby-stop").click()
         until(lambda: state(page) == "paused")
         stopped = pose(client)
         assert "Guest pressed Stop" in conversation_of(page)
         page.get_by_role("button", name="Kirby's view").click()
-        page.get_by_role("img", name="Kirby's camera").or_(page.locator("img")).first.wait_for()
+        page.get_by_text("Kirby's camera").wait_for()
         assert pose(client).point.distance_to(stopped.point) < 0.02
 
 
