@@ -84,11 +84,7 @@ class StubBody:
 
 
 class Watched:
-    """A body that notes, by the machine's own clock, when its wheels come to a stand and when each period begins.
-
-    The n-th of the control periods is due n periods after the first; with the periods' beginnings known, the schedule
-    that suits them best is the one that makes none early.
-    """
+    """A body that notes, by the machine's own clock, when its wheels come to a stand and when each period begins."""
 
     def __init__(self, body: Body, tell_stops: bool) -> None:
         self._body = body
@@ -110,10 +106,14 @@ class Watched:
         self.began_s.append(time.monotonic())
         self._body.step(duration_s)
 
-    def lateness_s(self, since_s: float) -> list[float]:
-        """Of each period that began after ``since_s``."""
-        off = [began_s - n * PERIOD_S for n, began_s in enumerate(t for t in self.began_s if t > since_s)]
-        return [each - min(off) for each in off]
+
+def lateness_s(began_s: Sequence[float], since_s: float) -> list[float]:
+    """How late each period began of those after ``since_s``, in seconds.
+
+    The n-th is due n periods after the first; of all such schedules, the one in which none is early counts.
+    """
+    off = [each - n * PERIOD_S for n, each in enumerate(each for each in began_s if each > since_s)]
+    return [each - min(off) for each in off]
 
 
 def main(arguments: Sequence[str] | None = None) -> None:
@@ -137,7 +137,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     run(Robot(cast(Body, body), bridge, boot=boot, markers=markers), parse_speed(read.speed), stopping)
     bridge.close()
     if read.lateness is not None:
-        print(json.dumps(body.lateness_s(read.lateness)))
+        print(json.dumps({"late_s": lateness_s(body.began_s, read.lateness), "cpu_s": time.process_time()}))
 
 
 def _simulated(world: str) -> tuple[Body, Markers]:

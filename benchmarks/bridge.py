@@ -6,7 +6,8 @@
 - *round trip*: from RPUSH of a command to its first feedback on the list, against a bare redis-py process that BLPOPs
   one list and RPUSHes to another. They take turns under the same Redis; the figures are medians.
 - *twenty robots*: namespaced, each patrolling in a body without physics, at 20 Hz. A period is missed when it starts
-  more than one period after it was due.
+  more than one period after it was due. Beside them runs a bare loop that only sleeps until its next period is due:
+  what it misses, the machine was too busy for.
 
 Run as ``python -m benchmarks.bridge [--json]``.
 """
@@ -36,7 +37,7 @@ STOPS = 500
 TRIPS = 2000
 ROBOTS = 20
 ROBOTS_S = 60.0
-WARM_UP_S = 30.0
+WARM_UP_S = 30.0  # until all have come up
 WORLD = "figure3"
 ANSWER_TIMEOUT_S = 30
 KEYS = Keys()
@@ -47,10 +48,30 @@ while client.blpop("ping"):
     client.rpush("pong", "x")
 """
 
+BARE_LOOP = """
+import json, signal, sys, time
+from benchmarks._stub import PERIOD_S, lateness_s
+signal.signal(signal.SIGTERM, lambda *_: sys.exit())
+due_s, began_s = time.monotonic(), []
+try:
+    while True:
+        due_s += PERIOD_S
+        time.sleep(max(0.0, due_s - time.monotonic()))
+        began_s.append(time.monotonic())
+finally:
+    print(json.dumps({"late_s": lateness_s(began_s, float(sys.argv[1])), "cpu_s": time.process_time()}))
+"""
+
 Figures = dict[str, float]
 
 
-def run(stops: int = STOPS, trips: int = TRIPS, robots: int = ROBOTS, robots_s: float = ROBOTS_S) -> Figures:
+def run(
+    stops: int = STOPS,
+    trips: int = TRIPS,
+    robots: int = ROBOTS,
+    robots_s: float = ROBOTS_S,
+    warm_up_s: float = WARM_UP_S,
+) -> Figures:
     """Milliseconds of a stop, the round trip's ratio to the bare one, and the lateness of the robots' periods."""
     figures: Figures = {}
     for name, options in (("stop", ("--world", WORLD)), ("stop_without_physics", ())):
@@ -59,7 +80,7 @@ def run(stops: int = STOPS, trips: int = TRIPS, robots: int = ROBOTS, robots_s: 
     with _server() as url:
         figures |= _round_trips(url, trips)
     with _server() as url:
-        figures |= _robots(url, robots, robots_s)
+        figures |= _robots(url, robots, robots_s, warm_up_s)
     return figures
 
 
@@ -116,10 +137,10 @@ def _round_trip(client: redis.Redis, there: str, text: str, back: str) -> float:
 
 
 # ------------------------------------------------------------------ many robots
-def _robots(url: str, count: int, seconds: float) -> Figures:
-    since_s = time.monotonic() + WARM_UP_S
-    late: list[float] = []
+def _robots(url: str, count: int, seconds: float, warm_up_s: float) -> Figures:
+    since_s = time.monotonic() + warm_up_s
     with _client(url) as client:
+        bare = _spawn("-c", BARE_LOOP, str(since_s))
         robots = [_start(url, "--namespace", f"robot{n}", "--lateness", str(since_s)) for n in range(count)]
         try:
             for n in range(count):
@@ -127,16 +148,26 @@ def _robots(url: str, count: int, seconds: float) -> Figures:
                 client.rpush(Keys(f"robot{n}").commands, "patrol 16 0.5 0.5")
             threading.Event().wait(max(0.0, since_s - time.monotonic()) + seconds)
         finally:
-            for robot in robots:
-                robot.terminate()
-        late = [each for robot in robots for each in json.loads(robot.communicate()[0])]
+            for process in (bare, *robots):
+                process.terminate()
+        said = [json.loads(robot.communicate()[0]) for robot in robots]
+        bare_late = json.loads(bare.communicate()[0])["late_s"]
+    late = [each for one in said for each in one["late_s"]]
     return {
         "robots": count,
         "robots_seconds": seconds,
-        "robots_periods": len(late),
-        "robots_missed_periods": sum(each > PERIOD_S for each in late),
-        "robots_late_ms_p99": round(1000 * sorted(late)[int(0.99 * len(late))], 2),
-        "robots_late_ms_max": round(1000 * max(late), 2),
+        **_lateness("robots", late),
+        **_lateness("bare_loop", bare_late),
+        "robots_cpu_seconds_each": round(sum(one["cpu_s"] for one in said) / count, 2),
+    }
+
+
+def _lateness(name: str, late_s: list[float]) -> Figures:
+    return {
+        f"{name}_periods": len(late_s),
+        f"{name}_missed_periods": sum(each > PERIOD_S for each in late_s),
+        f"{name}_late_ms_p99": round(1000 * sorted(late_s)[int(0.99 * len(late_s))], 2),
+        f"{name}_late_ms_max": round(1000 * max(late_s), 2),
     }
 
 

@@ -100,14 +100,8 @@ class Bridge:
             answer = self._connections.open(
                 _script("opening.lua"), (len(names), *names, self._token, ENTRY_MAX_BYTES, COUNT_MAX_DIGITS)
             )
-        except redis.AuthenticationError as error:
-            raise RobotError(f"Redis at {masked(self._url)} refuses: {error}") from None
-        except LOST:
-            raise RobotError(
-                f"no Redis answers at {masked(self._url)}: start it, or give another --redis URL"
-            ) from None
         except redis.RedisError as error:
-            raise RobotError(f"Redis at {masked(self._url)} refuses: {error}") from None
+            raise RobotError(self._why_not(error)) from None
         self._heard_s = time.monotonic()
         return self._boot(answer)
 
@@ -170,6 +164,13 @@ class Bridge:
         left = tuple(entry for entry in entries if entry.number <= handled)
         intact = self._resets == _whole(fields.get("resets_handled"))
         return Boot(fields.get("state") if intact else None, len(left) < len(entries), taken + waiting, left)
+
+    def _why_not(self, error: redis.RedisError) -> str:
+        """One line for people."""
+        reason = " ".join(str(error).split())
+        if isinstance(error, LOST) and not isinstance(error, redis.AuthenticationError):
+            return f"no Redis answers at {masked(self._url)} ({reason}): start it, or give another --redis URL"
+        return f"Redis at {masked(self._url)} refuses: {reason}"
 
     def _lose(self, error: redis.RedisError) -> None:
         log.warning("Redis is lost: %s", error)
