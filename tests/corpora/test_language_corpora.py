@@ -16,7 +16,11 @@ LANGUAGE = tuple(path for path in default_corpora() if path.parent.name == "lang
 PER_PHENOMENON = 20
 NEGATIVES = 150
 IN_ALL = 1_500
-MOTIONLESS = frozenset({"stop", "cancel", "cancel all", "queue", "take picture", "stop patrol"})
+KNOWN_FAILURES_MAX = 360
+"""To be lowered with the list; never raised."""
+MOTIONLESS = frozenset(
+    control.value for control in (Control.STOP, Control.CANCEL, Control.CANCEL_ALL, Control.QUEUE, Control.TAKE_PICTURE)
+)
 
 
 def _cases(path: Path) -> tuple[Case, ...]:
@@ -43,7 +47,7 @@ def test_no_sentence_stands_twice_in_a_file(path: Path) -> None:
 def test_expectations_are_well_formed(path: Path) -> None:
     acts = {function.value for function in Function}
     for case in _cases(path):
-        assert case.act is not None and case.act in acts or case.status == "not_understood", case.text
+        assert (case.act is not None and case.act in acts) or case.status == "not_understood", case.text
         if case.form is not None:
             assert str(parse_form(case.form)) == case.form, case.text
         for command in case.commands or ():
@@ -63,11 +67,7 @@ def test_only_instructions_and_their_corrections_have_commands_of_motion() -> No
             assert set(case.commands or ()) <= MOTIONLESS, case.text
 
 
-def test_known_failures_are_few() -> None:
+def test_known_failures_have_reasons_and_do_not_grow() -> None:
     known = load_known_failures(LANGUAGE[0].parent / KNOWN_FAILURES)
     assert all(failure.reason.strip() for failure in known)
-    assert len(known) <= sum(len(_cases(path)) for path in LANGUAGE) // 20
-
-
-def test_commands_without_arguments_are_the_wire_s_own() -> None:
-    assert MOTIONLESS <= {control.value for control in Control}
+    assert len(known) <= KNOWN_FAILURES_MAX
