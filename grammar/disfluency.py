@@ -1,7 +1,8 @@
-"""Disfluencies taken out before parsing: fillers, broken-off words, repeats, restarts, and repairs with an editing term.
+"""Disfluencies taken out before parsing: fillers, broken-off words, repeats, restarts, repairs with an editing term.
 
-A repair is reparandum, interregnum, repair (Shriberg 1994, Preliminaries to a Theory of Speech Disfluencies): in "turn left
-forty, I mean, fifty degrees" the reparandum "forty" begins at the nearest word of the kind with which the repair begins.
+A repair is reparandum, interregnum, repair (Shriberg 1994, Preliminaries to a Theory of Speech Disfluencies): in "turn
+left forty, I mean, fifty degrees" the reparandum "forty" begins at the nearest word of the kind with which the repair
+begins.
 """
 
 from __future__ import annotations
@@ -38,11 +39,25 @@ class Fluency:
         self._spoken_units = tuple(sorted(unit for unit in closed.table("unit") if len(unit) > _CLIPPED_MIN))
         self._leads = _phrases(lexicon, "LEAD")
 
+        self._fluent = self._never_disfluent()
+
+    def _never_disfluent(self) -> frozenset[str]:
+        """Words that, each said once, need no mending."""
+        openers = {*self._strong, *self._weak, *self._trailing}
+        numbers = {word for word in self.vocabulary if self._is_number(word)}
+        begun = {word for word in numbers for other in numbers if other != word and other.startswith(word)}
+        return frozenset(
+            word for word in self.vocabulary - openers - begun - self._fillers if len(word) > 1 or word == "a"
+        )
+
     def is_word(self, word: str) -> bool:
         return word in self.vocabulary or word in MARKS or word[0].isdigit() or self._numbers.may_start(word)
 
     def clean(self, tokens: Sequence[Token]) -> tuple[tuple[Token, ...], bool]:
-        """The tokens as they were meant, and whether the utterance begins by taking something back ("no, I mean ...")."""
+        """The tokens as they were meant, and whether they begin by taking something back ("no, I mean ...")."""
+        texts = [token.text for token in tokens]
+        if self._fluent.issuperset(texts) and len(set(texts)) == len(texts):
+            return tuple(tokens), False
         kept = self._without_noise(tokens)
         kept, corrects = self._leading_edit(self._without_trailing_edit(kept))
         kept = self._repaired(kept)
@@ -147,7 +162,7 @@ class Fluency:
         return tokens
 
     def _mend(self, tokens: list[Token], start: int, end: int, strong: bool) -> list[Token] | None:
-        """The tokens with the reparandum before ``start`` replaced by the repair from ``end``; None where there is none."""
+        """The tokens with the reparandum before ``start`` replaced by what follows ``end``; None where there is none."""
         while True:  # "no, wait, I mean"
             more = self._match(self._strong, tokens, end) or self._match(self._weak, tokens, end)
             if not more and not (end < len(tokens) and tokens[end].text in MARKS):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from voxml.terms import Quantity, Term
 from voxml.vocabulary import Lexicon
@@ -18,7 +19,8 @@ CLAUSE_OPENERS = frozenset(
 )
 BOUNDARIES = SEPARATORS | CLAUSE_OPENERS
 _SECOND_CHOICE = frozenset({"PATH", "NUMBER", "CARDINAL"})
-_CARDINAL_MAX = 100
+CARDINAL_MAX = 100
+HOURS_MAX = 12
 
 
 class Lattice:
@@ -49,7 +51,7 @@ class Lattice:
         return known
 
     def may_end(self, at: int) -> bool:
-        """Whether a clause may end before ``at``: at a mark, a connective, where another may begin, behind a first "no"."""
+        """Whether a clause may end before ``at``: at a mark, a connective, another's beginning, behind a first "no"."""
         if at >= len(self.texts) or self.texts[at] in MARKS:
             return True
         if at == 1 and "NO" in self.categories(0):
@@ -57,39 +59,78 @@ class Lattice:
         return not self.categories(at).isdisjoint(BOUNDARIES)
 
 
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """What begins with a word: edges of the word alone, and of phrases by their second word; the preferred first."""
+
+    alone: tuple[Edge, ...]
+    phrases: dict[str, tuple[tuple[tuple[str, ...], Edge], ...]]
+
+
+_NOTHING = Entry((), {})
+
+
 class WordReader:
-    """What a word or phrase may be, by one lexicon."""
+    """What a word or phrase may be, by one lexicon. Everything that does not depend on the neighbours is made once."""
 
     def __init__(self, lexicon: Lexicon, numbers: NumberReader) -> None:
         self._lexicon = lexicon
         self._numbers = numbers
-        self._skips = _by_first(word.words for word in lexicon.closed.words_of("skip"))
+        self._skips = [word.words for word in lexicon.closed.words_of("skip")]
         self._copulas = frozenset(lexicon.closed.table("BE"))
         self._names = frozenset(lexicon.closed.table("address"))
         self._refusals = frozenset(lexicon.closed.table("NO"))
         self._clock = frozenset(lexicon.closed.table("clock"))
+        self._entries = self._index()
+
+    def _index(self) -> dict[str, Entry]:
+        edges = [
+            (sense.words, Edge(sense.category, sense.value, len(sense.words))) for sense in self._lexicon.all_senses()
+        ]
+        edges.extend((words, Edge(None, None, len(words))) for words in (*self._skips, *((mark,) for mark in MARKS)))
+        edges.sort(key=lambda pair: _preference(pair[1]))
+        alone: dict[str, list[Edge]] = {}
+        phrases: dict[str, dict[str, list[tuple[tuple[str, ...], Edge]]]] = {}
+        for words, edge in edges:
+            alone.setdefault(words[0], [])
+            if len(words) == 1:
+                alone[words[0]].append(edge)
+            else:
+                phrases.setdefault(words[0], {}).setdefault(words[1], []).append((words, edge))
+        return {
+            word: Entry(tuple(own), {second: tuple(each) for second, each in phrases.get(word, {}).items()})
+            for word, own in alone.items()
+        }
 
     def edges(self, texts: Sequence[str], at: int) -> tuple[Edge, ...]:
         """As `Lattice.edges`."""
         word = texts[at]
-        found = [*self._amounts(texts, at)] if self._numbers.may_start(word) else []
-        for sense in self._lexicon.senses(word):
-            end = at + len(sense.words)
-            if tuple(texts[at:end]) == sense.words:
-                found.append(Edge(sense.category, sense.value, end))
-                if sense.category == "ADJECTIVE" and at and texts[at - 1] in self._copulas:
-                    found.append(Edge("PREDICATIVE", sense.value, end))
-        found.sort(key=_preference)
-        opens = at == 0 or texts[at - 1] in MARKS
-        if opens and word in self._refusals:
-            found = [edge for edge in found if edge.terminal != "DETERMINER"]
-        skips = self._skips.get(word, ())
-        if opens and word in self._names and at + 1 < len(texts):
-            found = [Edge(None, None, at + 1), *found]
-        found.extend(Edge(None, None, at + len(skip)) for skip in skips if tuple(texts[at : at + len(skip)]) == skip)
-        if word in MARKS:
-            found.append(Edge(None, None, at + 1))
-        return tuple(found)
+        entry = self._entries.get(word, _NOTHING)
+        following = entry.phrases.get(texts[at + 1]) if entry.phrases and at + 1 < len(texts) else None
+        found: list[Edge] = []
+        if following is not None:
+            found = [edge for words, edge in following if tuple(texts[at : at + edge.length]) == words]
+        if self._numbers.may_start(word):
+            found.extend(self._amounts(texts, at))
+        if found:
+            found.extend(entry.alone)
+            found.sort(key=_preference)
+        return self._by_neighbours(tuple(found) or entry.alone, texts, at)
+
+    def _by_neighbours(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
+        """What the words before say: "no" first is an answer, "robot" first is spoken to, "is red" needs no noun."""
+        word, before = texts[at], texts[at - 1] if at else ","
+        if before in MARKS:
+            if word in self._refusals:
+                return tuple(edge for edge in found if edge.terminal != "DETERMINER")
+            if word in self._names and at + 1 < len(texts):
+                return (Edge(None, None, 1), *found)
+        elif before in self._copulas:
+            return (
+                *found,
+                *(Edge("PREDICATIVE", edge.value, edge.length) for edge in found if edge.terminal == "ADJECTIVE"),
+            )
+        return found
 
     def _amounts(self, texts: Sequence[str], at: int) -> list[Edge]:
         found = []
@@ -97,28 +138,24 @@ class WordReader:
         if amount is not None:
             quantity = amount[0].quantity
             terminal = "QTY_MORE" if amount[0].more else "QTY"
-            found.append(Edge(terminal, Term("more", (quantity,)) if amount[0].more else quantity, amount[1]))
+            value = Term("more", (quantity,)) if amount[0].more else quantity
+            found.append(Edge(terminal, value, amount[1] - at))
         number = self._numbers.number(texts, at)
         if number is not None:
-            value, end = number
-            if end < len(texts) and texts[end] in self._clock and 1 <= value <= 12:
-                found.append(Edge("HEADING", Term("clock", (Quantity(value),)), end + 1))
-            found.append(Edge("NUMBER", Quantity(value), end))
-            if value == int(value) and 1 <= value <= _CARDINAL_MAX:
-                found.append(Edge("CARDINAL", Quantity(value), end))
+            value, length = Quantity(number[0]), number[1] - at
+            if number[1] < len(texts) and texts[number[1]] in self._clock and 1 <= number[0] <= HOURS_MAX:
+                found.append(Edge("HEADING", Term("clock", (value,)), length + 1))
+            found.append(Edge("NUMBER", value, length))
+            if number[0] == int(number[0]) and 1 <= number[0] <= CARDINAL_MAX:
+                found.append(Edge("CARDINAL", value, length))
         return found
 
 
-def _preference(edge: Edge) -> tuple[int, int]:
-    """Longer phrases first; "down" is a way to go before it is "down the hallway", "one" a thing before it is a number.
+def _preference(edge: Edge) -> tuple[bool, int, int]:
+    """Longer phrases first; "down" is a way to go before "down the hallway", "one" a thing before it is a number.
 
-    A light verb leaves its meaning to what follows ("take three steps") before it is a verb of its own ("take the box").
+    A light verb leaves its meaning to what follows ("take three steps") before it is a verb itself ("take the box").
+    What may be passed over is passed over last.
     """
-    return -edge.end, 0 if edge.terminal == "LIGHT" else 2 if edge.terminal in _SECOND_CHOICE else 1
-
-
-def _by_first(phrases: Iterable[tuple[str, ...]]) -> dict[str, tuple[tuple[str, ...], ...]]:
-    table: dict[str, list[tuple[str, ...]]] = {}
-    for phrase in phrases:
-        table.setdefault(phrase[0], []).append(phrase)
-    return {first: tuple(sorted(found, key=lambda words: -len(words))) for first, found in table.items()}
+    choice = 0 if edge.terminal == "LIGHT" else 2 if edge.terminal in _SECOND_CHOICE else 1
+    return edge.terminal is None, -edge.length, choice

@@ -24,14 +24,14 @@ class Refused(Exception):  # noqa: N818 - a reading that does not hold, with the
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """One way to read the tokens from some position: as ``terminal`` with ``value``, up to ``end``.
+    """One way to read the next ``length`` tokens: as ``terminal`` with ``value``.
 
     Without a terminal the tokens are passed over.
     """
 
     terminal: str | None
     value: Any
-    end: int
+    length: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,7 +150,7 @@ class Machine:
         may_end: Callable[[int], bool],
         trace: Trace,
     ) -> tuple[Node, int]:
-        """Go on by the first choices that hold, as far as they lead; what else could be chosen is left in ``pending``."""
+        """Go on by the first choices that hold, as far as they lead; the other choices are left in ``pending``."""
         options = edges(at)
         while choice < len(options) and trace.steps <= STEPS_MAX:
             edge = options[choice]
@@ -161,7 +161,7 @@ class Machine:
             trace.steps += 1
             if choice < len(options) or may_end(at):
                 pending.append((node, at, choice))
-            node, at, choice, options = following, edge.end, 0, edges(edge.end)
+            node, at, choice, options = following, at + edge.length, 0, edges(at + edge.length)
             if edge.terminal is not None and at > trace.furthest:
                 trace.furthest, trace.state = at, node[0]
         return node, at

@@ -12,6 +12,7 @@ from voxml.words import ClosedClasses
 _DIGITS = re.compile(r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+")
 _SLASHED = re.compile(r"([0-9]+)/([1-9][0-9]*)")
 VALUE_MAX = 1e6
+RATIO_SLACK = 1e-6
 
 Read = tuple[float, int]
 
@@ -86,7 +87,11 @@ class NumberReader:
     def _whole_unit(self, tokens: Sequence[str], at: int) -> Read | None:
         """One of a unit whose name begins like a number: "(a) quarter turn"."""
         start = at + 1 if at < len(tokens) and tokens[at] in self._articles else at
-        return (1.0, start) if start < len(tokens) and tokens[start] in self._fractions and self._unit(tokens, start) else None
+        return (
+            (1.0, start)
+            if start < len(tokens) and tokens[start] in self._fractions and self._unit(tokens, start)
+            else None
+        )
 
     def _skip_approximate(self, tokens: Sequence[str], at: int) -> int:
         """Past "about", "for", "at least", "maybe": the amount is taken as said."""
@@ -143,7 +148,7 @@ class NumberReader:
         start = at + 1 if at < len(tokens) and tokens[at] in self._and else at
         found = self.number(tokens, start)
         rest = None if found is None else self._unit(tokens, found[1])
-        if found is None or rest is None or rest[0].unit is not unit.unit or found[0] * rest[0].value >= unit.value:
+        if found is None or rest is None or not _divides(rest[0], unit) or found[0] * rest[0].value >= unit.value:
             return None
         return found[0] * rest[0].value, rest[1]
 
@@ -251,6 +256,12 @@ class NumberReader:
         if value >= 20 and one is not None and 1 <= one <= 9:
             return value + one, at + 2
         return value, at + 1
+
+
+def _divides(smaller: Quantity, unit: Quantity) -> bool:
+    """Inches divide feet and centimetres metres; feet do not divide steps."""
+    ratio = unit.value / smaller.value
+    return smaller.unit is unit.unit and ratio > 1 and abs(ratio - round(ratio)) < RATIO_SLACK
 
 
 def _units(closed: ClosedClasses) -> dict[str, tuple[tuple[tuple[str, ...], Quantity], ...]]:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from voxml.terms import Form, Term
 from voxml.vocabulary import Lexicon
@@ -20,14 +19,9 @@ from .meaning import Meaning
 from .numbers import NumberReader
 from .tokens import MARKS, Token, Tokenizer
 
-if TYPE_CHECKING:
-    from .repair import Repairer
-
 TEXT_MAX_CHARS = 2_000
 READINGS_MAX = 12
 CLAUSES_MAX = 150
-REPAIR_TOKENS_MAX = 30
-NEAREST_MIN = 0.5
 LANGUAGES = Path(__file__).parent / "languages"
 _SOCIAL = frozenset({Function.ACKNOWLEDGE, Function.GREET, Function.THANK, Function.BYE, Function.CONFIRM})
 _STOP = Term("stop")
@@ -51,20 +45,13 @@ class Reader:
         numbers = NumberReader(lexicon.closed)
         meaning = Meaning(lexicon)
         self._lexicon = lexicon
-        self._asking = frozenset(lexicon.closed.table("asking"))
-        self._halting = frozenset(lexicon.closed.table("halting"))
-        self._not_halting = frozenset(lexicon.closed.table("not_halting"))
         self._machine, self._tables = _machine(lexicon, language, meaning)
         self._words = WordReader(lexicon, numbers)
         self._tokenizer = Tokenizer(lexicon.closed)
         self._fluency = Fluency(lexicon, numbers)
 
     def read(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
-        """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood.
-
-        Where the grammar has no reading, what may mean "stop" stops, and words it does not know (or, if it knows them all,
-        the one where reading ended) are replaced by like ones: such acts carry the text as it was understood.
-        """
+        """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
         if len(text) > TEXT_MAX_CHARS:
             return NotUnderstood((TEXT_MAX_CHARS, len(text)), (f"at most {TEXT_MAX_CHARS} characters",))
         tokens, corrects = self._fluency.clean(self._tokenizer(text))
@@ -72,64 +59,22 @@ class Reader:
         clauses = attempt.clauses(0)
         if clauses:
             return _acts(tokens, clauses, corrects, self._is_control)
-        if self._halts(tokens):
-            return (DialogueAct(Function.INSTRUCT, _STOP, (tokens[0].start, tokens[-1].end)),)
-        return self._repaired(tokens, attempt.trace, corrects) or self._not_understood(text, tokens, attempt.trace)
+        return self._not_understood(text, tokens, attempt.trace)
 
-    def _attempt(self, tokens: tuple[Token, ...], steps: int = 0) -> _Attempt:
-        return _Attempt(tokens, Lattice(tokens, self._words), self._machine, steps)
+    def _attempt(self, tokens: tuple[Token, ...]) -> _Attempt:
+        return _Attempt(tokens, Lattice(tokens, self._words), self._machine)
 
     def _is_control(self, form: Form) -> bool:
         """Whether the form only tells the robot's queue what to do: that corrects nothing, whatever came before."""
         entry = self._lexicon.programs.get(form.pred) if isinstance(form, Term) else None
         return entry is not None and entry.body[0].event.pred == "control"
 
-    def _halts(self, tokens: tuple[Token, ...]) -> bool:
-        """Whether a word for stopping opens or ends what is no question and does not forbid it."""
-        texts = [token.text for token in tokens]
-        if not texts or texts[0] in self._asking:
-            return False
-        for at in {0, len(texts) - 1, *(at for at in range(1, len(texts)) if texts[at - 1] in MARKS)}:
-            if texts[at] in self._halting and (at == 0 or texts[at - 1] not in self._not_halting):
-                return not (at + 1 < len(texts) and texts[at + 1] in self._not_halting)
-        return False
-
-    def _repaired(self, tokens: tuple[Token, ...], trace: Trace, corrects: bool) -> tuple[DialogueAct, ...] | None:
-        if not 0 < len(tokens) <= REPAIR_TOKENS_MAX:
-            return None
-        texts = [token.text for token in tokens]
-        unknown = [at for at, word in enumerate(texts) if not self._fluency.is_word(word)]
-        steps = 0
-        for proposal in self._repairer.proposals(texts, unknown, trace.furthest):
-            changed = tuple(replace(token, text=word) for token, word in zip(tokens, proposal, strict=True))
-            attempt = self._attempt(changed, steps)
-            clauses = attempt.clauses(0)
-            steps = attempt.steps
-            if clauses and self._is_likely(texts, clauses):
-                said = None if all(clause.form == _STOP for clause in clauses) else " ".join(proposal)
-                return _acts(changed, clauses, corrects, self._is_control, said)
-        return None
-
-    def _is_likely(self, texts: list[str], clauses: tuple[Clause, ...]) -> bool:
-        """Whether a repaired reading may be asked about: no order out of a question, nothing out of loose words."""
-        functions = {clause.function for clause in clauses}
-        if Function.FRAGMENT in functions and len(clauses) > 1:
-            return False
-        return texts[0] not in self._asking or Function.INSTRUCT not in functions
-
-    @cached_property
-    def _repairer(self) -> Repairer:
-        from .repair import Repairer  # its search is only imported where something was not understood
-
-        return Repairer(self._fluency.vocabulary, self._halting)
-
     def _not_understood(self, text: str, tokens: tuple[Token, ...], trace: Trace) -> NotUnderstood:
         expected = describe_expected(self._tables.expected(trace.state), trace)
         if trace.furthest >= len(tokens):
             return NotUnderstood((len(text), len(text)), expected)
         token = tokens[trace.furthest]
-        nearest = self._repairer.like(token.text, NEAREST_MIN)[:1] if token.text.isalpha() else ()
-        return NotUnderstood((token.start, token.end), expected, nearest[0] if nearest else None)
+        return NotUnderstood((token.start, token.end), expected)
 
 
 def _acts(
@@ -137,10 +82,9 @@ def _acts(
     clauses: tuple[Clause, ...],
     corrects: bool,
     is_control: Callable[[Form], bool],
-    repaired: str | None = None,
 ) -> tuple[DialogueAct, ...]:
     return tuple(
-        DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end), repaired)
+        DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end))
         for clause in _ordered(clauses, corrects, is_control)
     )
 
@@ -148,9 +92,9 @@ def _acts(
 class _Attempt:
     """The search through one utterance: what can be made of the tokens from each position on, found once."""
 
-    def __init__(self, tokens: tuple[Token, ...], lattice: Lattice, machine: Machine, steps: int) -> None:
+    def __init__(self, tokens: tuple[Token, ...], lattice: Lattice, machine: Machine) -> None:
         self.trace = Trace()
-        self.steps = steps
+        self.steps = 0
         self._depth = 0
         self._count = len(tokens)
         self._lattice = lattice
@@ -199,7 +143,7 @@ class _Attempt:
             if step is None and self._lattice.texts[at] not in MARKS:
                 break
             before = before or (step is not None and step.terminal == "BEFORE_THAT")
-            at = at + 1 if step is None else step.end
+            at += 1 if step is None else step.length
         return at, before
 
 

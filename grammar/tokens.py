@@ -41,6 +41,5 @@ class Tokenizer:
                 continue
             if word == "-":
                 word = "minus"
-            for part in self._contractions.get(word, (word,)):
-                tokens.append(Token(part, start, end))
+            tokens.extend(Token(part, start, end) for part in self._contractions.get(word, (word,)))
         return tokens

@@ -69,6 +69,10 @@ class Lexicon:
         """Every sense of every phrase that begins with the word, the longest phrases first."""
         return self._senses.get(first_word, ())
 
+    def all_senses(self) -> Iterator[Sense]:
+        """Every sense of every phrase."""
+        return (sense for senses in self._senses.values() for sense in senses)
+
     def lookup(self, phrase: str) -> tuple[Sense, ...]:
         """The senses of exactly this phrase, inflected or not."""
         words = tuple(phrase.lower().split())
