@@ -8,6 +8,7 @@ local map, odom, fiducials, lidar, status = unpack(KEYS, 7, 11)
 local owner, seen, take, bytes = ARGV[1], tonumber(ARGV[2]), tonumber(ARGV[3]), tonumber(ARGV[4])
 local news = cjson.decode(ARGV[5])
 local SCAN_MAX = 20000
+local AHEAD_MAX = 1e6  -- so many entries are never taken that the robot has not seen
 
 -- A key that somebody made into something else is made anew.
 local function must_be(key, kind)
@@ -30,7 +31,10 @@ if holder ~= owner then
     if holder and #holder == #owner and string.match(holder, '^%x+$') then return {0, 0, 0, {}} end
     redis.call('HSET', record, 'owner', owner)
 end
-if field('seq') < seen then put('seq', seen) end
+local newest = number_of(redis.call('LINDEX', queue, -1) or '') or 0
+if field('seq') < seen or field('seq') > seen + AHEAD_MAX then
+    put('seq', newest > seen and newest <= seen + AHEAD_MAX and newest or seen)
+end
 if news.issued and field('batch') > news.issued then put('batch', 0) end
 
 -- What the robot did, once: a batch whose answer was lost comes again under the same number.
@@ -102,8 +106,8 @@ if length > 0 then
 end
 
 -- Everything in the robot's list that it has not seen: just taken, or taken by an exchange whose answer was lost.
-local fresh, newest = {}, redis.call('LINDEX', queue, -1)
-if newest and (number_of(newest) or math.huge) > seen then
+local fresh, last = {}, redis.call('LINDEX', queue, -1)
+if last and (number_of(last) or math.huge) > seen then
     local seq = field('seq')
     for _, entry in ipairs(redis.call('LRANGE', queue, 0, -1)) do
         local number = number_of(entry)

@@ -22,7 +22,7 @@ from robot.messages import (
     feedback,
     feedback_from_fields,
 )
-from robot.port import Entry, News
+from robot.port import Boot, Entry, News
 from robot.redis_server import RedisServer
 
 KEYS = Keys()
@@ -209,6 +209,85 @@ def test_junk_in_the_durable_list_is_thrown_out(client, robots):
     client.rpush(KEYS.commands, "stop")
     assert texts(bridge.exchange(News())) == [b"stop"]
     assert client.lrange(KEYS.queue, 0, -1) == [b"1 stop"]
+
+
+def test_entries_that_the_record_should_know_of_are_told_of(client, robots):
+    bridge, _ = robots()
+    client.rpush(KEYS.commands, "go forward", "turn left", "go to 1 1")
+    bridge.exchange(News())
+    bridge.exchange(News(record="state", ended=(1,)))
+    bridge.close()
+    client.rpush(KEYS.queue, "junk")
+    _, boot = robots()
+    assert boot.left == (Entry(2, b"turn left"), Entry(3, b"go to 1 1"))
+    assert client.llen(KEYS.queue) == 2
+
+
+def test_a_record_deleted_by_hand_makes_no_number_come_twice(client, robots):
+    bridge, _ = robots()
+    client.rpush(KEYS.commands, "go forward", "turn left")
+    bridge.exchange(News())
+    bridge.exchange(News(record="state"))
+    bridge.close()
+    client.delete("Kirby_Queue_Record")
+    again, boot = robots()
+    assert boot == Boot(None, False, 2, (Entry(1, b"go forward"), Entry(2, b"turn left")))
+    client.rpush(KEYS.commands, "stop")
+    assert again.exchange(News()).entries == (Entry(3, b"stop"),)
+
+
+@pytest.mark.parametrize("value", ["", "-1", "nan", "1e9", "9" * 400, "9" * 15, b"\xff"])
+@pytest.mark.parametrize("name", ["batch", "seq", "handled", "resets_handled", "scanned", "hold", "owner"])
+def test_a_spoilt_record_makes_nobody_deaf_or_mute(client, robots, name, value):
+    bridge, _ = robots()
+    bridge.exchange(News(feedback=(feedback(FeedbackCode.READY),)))
+    client.hset("Kirby_Queue_Record", name, value)
+    client.rpush(KEYS.commands, "queue")
+    incoming = bridge.exchange(News())
+    assert texts(incoming) == [b"queue"]
+    assert not incoming.held
+    bridge.exchange(News(feedback=(feedback(FeedbackCode.QUEUE),)))
+    assert decode_feedback(client.lindex(KEYS.feedback, -1)).code is FeedbackCode.QUEUE
+    client.hset("Kirby_Queue_Record", name, value)
+    bridge.close()
+    again, _ = robots()
+    client.rpush(KEYS.commands, "stop")
+    assert texts(again.exchange(News()))[-1] == b"stop"
+
+
+def test_a_stream_whose_last_id_is_used_up_is_made_anew(client, robots):
+    bridge, _ = robots()
+    client.xadd(KEYS.feedback_stream, {"code": "junk"}, id=f"{2**64 - 1}-{2**64 - 1}")
+    bridge.exchange(News(feedback=(feedback(FeedbackCode.READY),)))
+    assert len(client.xrange(KEYS.feedback_stream)) == 1
+
+
+def test_half_a_character_in_an_id_is_no_obstacle(client, robots):
+    bridge, _ = robots()
+    bridge.exchange(News(feedback=(feedback(FeedbackCode.INVALID, id="\ud800", detail="\udfff"),)))
+    assert decode_feedback(client.lindex(KEYS.feedback, -1)).id == "\ud800"
+    ((_, fields),) = client.xrange(KEYS.feedback_stream)
+    assert fields[b"id"] == b"?"
+
+
+def test_a_command_is_handed_over_with_the_waking(client, robots, monkeypatch):
+    bridge, _ = robots()
+    bridge.exchange(News())
+    client.rpush(KEYS.commands, "stop")
+    assert bridge.wait(10.0)
+    monkeypatch.setattr(bridge, "_run", lambda: pytest.fail("no round trip is needed"))
+    assert texts(bridge.exchange(News(odom=ODOM))) == [b"stop"]
+
+
+def test_what_came_by_an_exchange_does_not_wake_again(client, robots):
+    bridge, _ = robots()
+    assert not bridge.wait(0.01)  # from now on Redis hands over what is pushed
+    client.rpush(KEYS.commands, "stop")
+    assert texts(bridge.exchange(News())) == [b"stop"]
+    assert not bridge.wait(0.05)
+    client.rpush(KEYS.commands, "queue")
+    assert bridge.wait(10.0)
+    assert texts(bridge.exchange(News())) == [b"queue"]
 
 
 def test_emptied_redis_is_no_reason_to_miss_what_comes_next(client, robots):

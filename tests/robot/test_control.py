@@ -3,8 +3,10 @@
 import json
 import math
 import os
+import re
 import signal
 import threading
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,7 +20,7 @@ from robot.errors import RobotError
 from robot.geometry import ORIGIN, Point, Segment
 from robot.messages import decode_feedback, decode_lidar, decode_map, decode_odom
 from robot.pacing import parse_speed, run
-from robot.port import Boot, MemoryPort
+from robot.port import Boot, Entry, MemoryPort
 from robot.queue import Mode
 from robot.redis_server import RedisServer
 
@@ -164,6 +166,22 @@ def test_an_unreadable_record_is_as_good_as_none(record):
     robot = Robot(KinematicBody(ROOM), port, boot=Boot(record, False, 0))
     robot.attend()
     assert codes(robot) == ["READY"]
+
+
+def test_what_nobody_knows_of_any_more_is_not_done_and_gets_an_ending(alone):
+    alone.port.send("go forward 2")
+    alone.port.send('{"id": "known", "command": "turn left"}')
+    while alone.body.pose.x_m < 0.5:
+        alone.tick()
+    alone.rest()
+    left = (Entry(1, b"go forward 2"), Entry(2, b"{}"), Entry(3, b'{"id": "gone", "command": "turn left"}'))
+    for record, gone in ((None, [1, 2, 3]), (alone.port.latest.record.encode(), [3])):
+        port = MemoryPort()
+        robot = Robot(KinematicBody(ROOM, alone.pose), port, boot=Boot(record, False, 3, left))
+        robot.run_until_idle()
+        assert port.ended == gone
+        assert [told.code.value for told in port.feedback][:-1] == ["CANCELLED_GOAL"] * len(gone)
+        assert port.feedback[-2].id == "gone"
 
 
 def test_one_seed_ends_in_one_pose_to_the_last_digit():
@@ -418,6 +436,15 @@ def test_a_client_of_the_original_bridge_finds_its_keys(kirby, client):
     assert decode_map(json.dumps(walls)).segments
     assert decode_odom(json.dumps(odom)).pose.x_m == odom["location"][0]
     assert decode_lidar(client.redis.get("Lidar")).ranges_m
+
+
+def test_the_guides_example_runs(kirby, client, server, capsys):
+    guide = (Path(__file__).parents[2] / "docs" / "bridge.md").read_text()
+    (example,) = re.findall(r"```python\n(.*?)```", guide, re.DOTALL)
+    exec(compile(example.replace("redis://localhost:6379", server.url), "docs/bridge.md", "exec"), {})
+    said = capsys.readouterr().out.splitlines()
+    assert {"SUCCESS_VERIFY_ROTATION", "SUCCESS_FORWARD"} <= {line.split()[0] for line in said}
+    assert said[-1].startswith("at [")
 
 
 def test_at_its_own_pace_a_stop_between_two_periods_is_obeyed(run_robot, client):
