@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import random
 from collections.abc import Callable
@@ -83,9 +84,10 @@ def meddle(client: redis.Redis, keys: Keys, source: random.Random) -> None:
     """One thing done to one of the keys that a client has no business doing."""
     record = f"{keys.queue}_Record"
     key = source.choice([*_names(keys), record])
-    source.choice(_DEEDS)(client, key, source)
-    if source.random() < 0.2:
-        _spoil_record(client, record, source)
+    with contextlib.suppress(redis.ResponseError):  # the robot has put the key right in the meantime
+        source.choice(_DEEDS)(client, key, source)
+        if source.random() < 0.2:
+            _spoil_record(client, record, source)
 
 
 def _names(keys: Keys) -> list[str]:

@@ -33,7 +33,7 @@ from robot.control import PERIOD_S
 from robot.messages import Keys
 from robot.redis_server import RedisServer
 
-STOPS = 500
+STOPS = 200
 TRIPS = 2000
 ROBOTS = 20
 ROBOTS_S = 60.0

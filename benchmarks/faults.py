@@ -60,6 +60,7 @@ def run(
     source = random.Random(seed)
     with tempfile.TemporaryDirectory() as folder:
         figures = _Siege(Path(folder), source).run(commands, robot_kills, redis_kills)
+    print(f"after the kills: {figures}; now junk", file=sys.stderr)
     with tempfile.TemporaryDirectory() as folder, RedisServer(Path(folder)) as server:
         return figures | _junk(server, fuzzed, source)
 
