@@ -18,8 +18,8 @@ from robot.mapping.grid import OCCUPIED_LOG_ODDS, OccupancyGrid
 
 FORBIDDEN = -1.0  # what scikit-image's MCP takes as impassable
 MARGIN_M = 0.03  # on top of the robot's radius: half a cell of the grid's rounding
-NEAR_COST = 0.3
-NEAR_FALLOFF_M = 0.06
+NEAR_COST = 1.0
+NEAR_FALLOFF_M = 0.03  # steep: enough to keep clear of the shield, too little to make wide curves
 UNKNOWN_COST = 0.6
 ESCAPE_COST = 20.0
 ESCAPE_RADIUS_M = 0.4
@@ -32,8 +32,8 @@ BORDER_M = 1.2  # of unknown space around everything known, so that the outside 
 class Costmap:
     """Cost per cell, shape (rows, columns), row 0 at the bottom; a metre of free space costs one metre.
 
-    ``distances_m`` is each cell's distance to the nearest occupied one. ``left_m`` and ``bottom_m`` are the map
-    coordinates of the lower left corner.
+    ``distances_m`` is each cell's distance to the nearest occupied one; ``seen`` says where anything is known.
+    ``left_m`` and ``bottom_m`` are the map coordinates of the lower left corner.
     """
 
     left_m: float
@@ -41,6 +41,7 @@ class Costmap:
     resolution_m: float
     costs: NDArray[np.float64]
     distances_m: NDArray[np.float32]
+    seen: NDArray[np.bool_]
 
     def cell_of(self, place: Point) -> tuple[int, int]:
         """(row, column) of the cell that holds ``place``, which must lie on the map."""
@@ -109,9 +110,10 @@ def build_costmap(grid: OccupancyGrid, start: Point, places: tuple[Point, ...], 
     left_m, bottom_m = window.left * grid.resolution_m, window.bottom * grid.resolution_m
     hard_m = radius_m + MARGIN_M
     costs = 1.0 + NEAR_COST * np.exp((hard_m - distances_m) / NEAR_FALLOFF_M, dtype=np.float32)
-    costs[cells == 0.0] += UNKNOWN_COST
+    seen = cells != 0.0
+    costs[~seen] += UNKNOWN_COST
     costs[distances_m < hard_m] = FORBIDDEN
-    costmap = Costmap(left_m, bottom_m, grid.resolution_m, costs.astype(np.float64), distances_m)
+    costmap = Costmap(left_m, bottom_m, grid.resolution_m, costs.astype(np.float64), distances_m, seen)
     _open_around(costmap, start)
     return costmap
 

@@ -85,12 +85,17 @@ class _Search:
         return Plan((*found.path, goal), found.cost_m + edge.distance_to(goal) * (1.0 + UNKNOWN_COST))
 
     def stand_in(self, goal: Point) -> Point | None:
-        """The reachable place nearest to ``goal``, within the tolerance; of equals the first in row order."""
+        """The reachable place nearest to ``goal``, within the tolerance; of equals the first in row order.
+
+        It must have been seen: there is always some unknown ground behind a wall, and a goal in the wall is no reason
+        to search for a way to its other side.
+        """
         costmap, (row, column) = self._costmap, self._costmap.cell_of(goal)
         reach = math.ceil(GOAL_TOLERANCE_M / costmap.resolution_m)
         rows, columns = np.mgrid[row - reach : row + reach + 1, column - reach : column + reach + 1]
         costs, _ = self._mcp.find_costs([self._block_of(self._start)])
-        reached = (costmap.costs[rows, columns] >= 0.0) & np.isfinite(costs[rows // self._side, columns // self._side])
+        open_cells = (costmap.costs[rows, columns] >= 0.0) & costmap.seen[rows, columns]
+        reached = open_cells & np.isfinite(costs[rows // self._side, columns // self._side])
         away_m = np.where(reached, np.hypot(rows - row, columns - column) * costmap.resolution_m, np.inf)
         best = int(away_m.argmin())
         if away_m.flat[best] > GOAL_TOLERANCE_M:
