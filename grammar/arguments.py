@@ -19,6 +19,9 @@ _THINGS = frozenset({"physobj", "location", "human", "artifact", "any"})
 _OPERATORS = frozenset({"and", "or", "not"})
 
 
+BARE_DEGREES_MIN = 5  # nobody means degrees by "turn left two"
+
+
 class Kind(Enum):
     """What an argument is by its shape, before a verb makes something of it."""
 
@@ -65,6 +68,8 @@ class ArgumentFitter:
             Refused: they fit none; the reason is that of the first reading.
         """
         reason = ""
+        if not args:  # said alone, a verb is rather one that takes nothing
+            readings = sorted(readings, key=lambda reading: bool(_slots(reading.entry)))
         for reading in readings:
             try:
                 return self._fit(reading, args)
@@ -139,7 +144,8 @@ class ArgumentFitter:
                 return _said_in_full(form) if _unit_type(form) in types else None
             case Kind.NUMBER, Quantity(value=value):
                 unit = next((_TYPE_UNITS[kind] for kind in types if kind in _QUANTITIES), None)
-                return None if unit is None else Quantity(value, unit)
+                too_few = unit is Unit.DEGREE and value < BARE_DEGREES_MIN
+                return None if unit is None or too_few else Quantity(value, unit)
             case Kind.VAGUE, form:
                 return form if _QUANTITIES & set(types) - {"count"} else None
             case Kind.SIDE, form:

@@ -135,12 +135,20 @@ class Fluency:
             if tokens[at].text in MARKS:
                 at += 1
                 continue
-            length = self._match(self._strong, tokens, at)
-            if not length or at + length >= len(tokens):
+            length = self._match(self._strong, tokens, at) or self._weak_before_strong(tokens, at)
+            if not length or all(token.text in ("no", *MARKS) for token in tokens[at + length :]):
                 break
             at += length
         corrects = any(token.text not in MARKS for token in tokens[:at])
         return (tokens[at:] if corrects else tokens), corrects
+
+    def _weak_before_strong(self, tokens: Sequence[Token], at: int) -> int:
+        """How long the "no," of "no, I mean" is."""
+        length = self._match(self._weak, tokens, at)
+        end = at + length
+        while length and end < len(tokens) and tokens[end].text in MARKS:
+            end += 1
+        return end - at if length and self._match(self._strong, tokens, end) else 0
 
     def _without_trailing_edit(self, tokens: list[Token]) -> list[Token]:
         """ "left, I said" and "the red one, I mean" take nothing back."""
@@ -162,7 +170,7 @@ class Fluency:
         return tokens
 
     def _mend(self, tokens: list[Token], start: int, end: int, strong: bool) -> list[Token] | None:
-        """The tokens with the reparandum before ``start`` replaced by what follows ``end``; None where there is none."""
+        """The tokens with the reparandum before ``start`` replaced by what follows ``end``, if it can be."""
         while True:  # "no, wait, I mean"
             more = self._match(self._strong, tokens, end) or self._match(self._weak, tokens, end)
             if not more and not (end < len(tokens) and tokens[end].text in MARKS):

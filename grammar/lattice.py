@@ -18,6 +18,7 @@ CLAUSE_OPENERS = frozenset(
     {"VERB", "VERB_ING", "LEAD", "LEAD_ING", "LEAD_TO", "LEAD_PAST", "LIGHT", "IF", "UNTIL", "FORBID"}
 )
 BOUNDARIES = SEPARATORS | CLAUSE_OPENERS
+_FIRST_CHOICE = frozenset({"LIGHT", "WAY"})
 _SECOND_CHOICE = frozenset({"PATH", "NUMBER", "CARDINAL"})
 CARDINAL_MAX = 100
 HOURS_MAX = 12
@@ -146,6 +147,10 @@ class WordReader:
             if number[1] < len(texts) and texts[number[1]] in self._clock and 1 <= number[0] <= HOURS_MAX:
                 found.append(Edge("HEADING", Term("clock", (value,)), length + 1))
             found.append(Edge("NUMBER", value, length))
+        more = self._numbers.more(texts, at)
+        if more is not None:
+            found.append(Edge("QTY_MORE", Term("more", (Quantity(more[0]),)), more[1] - at))
+        if number is not None:
             if number[0] == int(number[0]) and 1 <= number[0] <= CARDINAL_MAX:
                 found.append(Edge("CARDINAL", value, length))
         return found
@@ -157,5 +162,5 @@ def _preference(edge: Edge) -> tuple[bool, int, int]:
     A light verb leaves its meaning to what follows ("take three steps") before it is a verb itself ("take the box").
     What may be passed over is passed over last.
     """
-    choice = 0 if edge.terminal == "LIGHT" else 2 if edge.terminal in _SECOND_CHOICE else 1
+    choice = 0 if edge.terminal in _FIRST_CHOICE else 2 if edge.terminal in _SECOND_CHOICE else 1
     return edge.terminal is None, -edge.length, choice

@@ -14,6 +14,7 @@ from .machine import Action, Refused
 from .phrases import YOU, Nominal, Pre, Such
 
 Act = tuple[Function, Form]
+_ALONE = frozenset({"through", "out_of", "past", "across", "around", "along", "over", "down", "up"})
 _IMPLIED = ("turn", "go", "sidestep")
 
 
@@ -56,7 +57,7 @@ class Meaning:
         events = [arg for arg in args if arg.kind is Kind.EVENT]
         rest = tuple(arg for arg in args if arg.kind is not Kind.EVENT)
         if events:
-            return self._fitter.program(events[0].readings, rest)
+            return self._done(readings, events[0].readings, rest)
         if isinstance(readings, Term):
             if not rest:
                 raise Refused("what to do")
@@ -64,6 +65,22 @@ class Meaning:
                 Reading(self._lexicon.programs[arg.pred]) for arg in readings.args if isinstance(arg, Term)
             )
         return self._fitter.program(readings, rest)
+
+    def _done(self, verb: Any, event: tuple[Reading, ...], args: Args) -> Form:
+        """What an event noun says, of a light verb or of its own ("turn a ten degree angle"); "two pictures" are two."""
+        if isinstance(verb, tuple) and not {each.entry.lex.pred for each in verb} & {
+            each.entry.lex.pred for each in event
+        }:
+            raise Refused("a thing or place")
+        try:
+            return self._fitter.program(event, args)
+        except Refused:
+            counts = [arg for arg in args if arg.kind is Kind.NUMBER]
+            if len(counts) != 1:
+                raise
+        return Term(
+            "repeat", (counts[0].form, self._fitter.program(event, tuple(arg for arg in args if arg not in counts)))
+        )
 
     def verb_led(self, lead: Form, readings: Any, args: Args = ()) -> Form:
         return self.verb(readings, args)
@@ -84,6 +101,12 @@ class Meaning:
     # ------------------------------------------------------------ arguments
     def path(self, relation: Form, place: Form) -> Arg:
         return Arg(Kind.PATH, phrases.relation(relation, place))
+
+    def path_alone(self, relation: Form) -> Arg:
+        """ "go through", "go around": a way without what it leads past; "go to" wants its place."""
+        if _pred(relation) not in _ALONE:
+            raise Refused("a thing or place")
+        return Arg(Kind.PATH, relation)
 
     def path_point(self, relation: Form, x: Quantity, y: Quantity) -> Arg:
         """ "to 2 3", "to coordinates 2 3": a place on the map."""
@@ -170,6 +193,10 @@ _PLAIN: dict[str, Action] = {
     # acts
     "act_instruct": _of(Function.INSTRUCT),
     "act_question": _of(Function.QUESTION),
+    "act_rather": lambda mark, wrong, separator, right: (Function.CORRECT, right[0].form),
+    "act_rather_first": lambda right, separator, mark, wrong: (Function.CORRECT, right[0].form),
+    "act_not": lambda mark, wrong: (Function.CORRECT, Term("not", (wrong[0].form,))),
+    "act_until": lambda marker, condition: (Function.FRAGMENT, Term("until", (condition,))),
     "act_inform": _of(Function.INFORM),
     "act_confirm": _says(Function.CONFIRM, "yes"),
     "act_deny": _says(Function.DENY, "no"),
@@ -204,7 +231,6 @@ _PLAIN: dict[str, Action] = {
     "repeat": _arg(Kind.REPEAT),
     "path_place": lambda relation, place: Arg(Kind.PATH, Term(_pred(relation), (place,))),
     "path_axis": lambda relation, axis: Arg(Kind.AXIS, axis),
-    "path_alone": lambda relation: Arg(Kind.PATH, relation),
     "place": _arg(Kind.PLACE),
     "location": lambda relation, place: Arg(Kind.LOCATION, phrases.relation(relation, place)),
     "facing": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),

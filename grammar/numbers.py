@@ -40,6 +40,7 @@ class NumberReader:
         self._point = frozenset(roles.pop("point", ()))
         self._minus = frozenset(roles.pop("minus", ()))
         self._of = frozenset(roles.pop("of", ()))
+        self._inner_zero = frozenset(roles.pop("zero", ()))
         self._vague_counts = {word: float(value) for value, words in roles.items() for word in words}
         self._more = frozenset(closed.table("more"))
         self._approximate = {word.words for word in closed.words_of("amount_lead")}
@@ -77,6 +78,7 @@ class NumberReader:
         if unit is None:
             return None
         quantity, at = unit
+        value, at = self._and_fraction(tokens, value, at)
         total = value * quantity.value
         rest = self._smaller(tokens, at, quantity)
         if rest is not None:
@@ -92,6 +94,15 @@ class NumberReader:
             if start < len(tokens) and tokens[start] in self._fractions and self._unit(tokens, start)
             else None
         )
+
+    def more(self, tokens: Sequence[str], at: int) -> Read | None:
+        """A number that adds, without its unit: "ten more", "another ten"."""
+        start, added = self._skip_more(tokens, at, False)
+        found = self.number(tokens, start)
+        if found is None:
+            return None
+        end, more = self._skip_more(tokens, found[1], added)
+        return (found[0], end) if more else None
 
     def _skip_approximate(self, tokens: Sequence[str], at: int) -> int:
         """Past "about", "for", "at least", "maybe": the amount is taken as said."""
@@ -142,6 +153,14 @@ class NumberReader:
             if tuple(tokens[at : at + len(words)]) == words:
                 return quantity, at + len(words)
         return None
+
+    def _and_fraction(self, tokens: Sequence[str], value: float, at: int) -> Read:
+        """A rest of the same unit: "(a foot) and a half"."""
+        if at + 1 < len(tokens) and tokens[at] in self._and:
+            rest = self._fraction(tokens, at + 1)
+            if rest is not None and self._unit(tokens, rest[1]) is None:
+                return value + rest[0], rest[1]
+        return value, at
 
     def _smaller(self, tokens: Sequence[str], at: int, unit: Quantity) -> Read | None:
         """A rest in a smaller unit of the same kind: "(two feet) and three inches"."""
@@ -203,7 +222,15 @@ class NumberReader:
         digits, end = "", at + 1
         while end < len(tokens):
             word = tokens[end]
-            said = word if word.isdigit() else str(int(self._units[word])) if word in self._units else ""
+            said = (
+                word
+                if word.isdigit()
+                else "0"
+                if word in self._inner_zero
+                else str(int(self._units[word]))
+                if word in self._units
+                else ""
+            )
             if not said or (digits and len(said) > 1):
                 break
             digits, end = digits + said, end + 1
@@ -233,7 +260,8 @@ class NumberReader:
         if end < len(tokens) and tokens[end] in self._multipliers:
             return self._scaled(tokens, value * self._multipliers[tokens[end]], end + 1)
         if 1 <= value <= 9:  # "one twenty", "three sixty", "one thirty five", "one oh five"
-            rest = self._below_hundred(tokens, end)
+            zero = end < len(tokens) and tokens[end] in self._inner_zero
+            rest = (0.0, end + 1) if zero else self._below_hundred(tokens, end)
             if rest is not None and rest[0] >= 10:
                 return value * 100 + rest[0], rest[1]
             if rest is not None and rest[0] == 0:

@@ -13,7 +13,7 @@ from voxml.vocabulary import Lexicon
 from .acts import DialogueAct, Function, NotUnderstood
 from .disfluency import Fluency
 from .expectations import describe_expected
-from .lattice import DERIVED_TERMINALS, Lattice, WordReader
+from .lattice import DERIVED_TERMINALS, SEPARATORS, Lattice, WordReader
 from .machine import Machine, Tables, Trace, build_tables
 from .meaning import Meaning
 from .numbers import NumberReader
@@ -139,7 +139,8 @@ class _Attempt:
         before = False
         while at < self._count:
             edges = self._lattice.edges(at)
-            step = next((edge for edge in edges if edge.terminal in ("BEFORE_THAT", "THEN", "AND", "BUT")), None)
+            longest = max((edge.length for edge in edges), default=0)
+            step = next((edge for edge in edges if edge.terminal in SEPARATORS and edge.length == longest), None)
             if step is None and self._lattice.texts[at] not in MARKS:
                 break
             before = before or (step is not None and step.terminal == "BEFORE_THAT")
@@ -151,6 +152,8 @@ def _ordered(clauses: tuple[Clause, ...], corrects: bool, is_control: Callable[[
     """What was said to come first, first; and pleasantries only where nothing else was said."""
     ordered: list[Clause] = []
     for clause in clauses:
+        if ordered and ordered[-1].form == clause.form and (clause.form == _STOP or clause.function in _SOCIAL):
+            continue
         ordered.insert(max(len(ordered) - 1, 0) if clause.before else len(ordered), clause)
     if any(clause.function not in _SOCIAL for clause in ordered):
         ordered = [clause for clause in ordered if clause.function not in _SOCIAL]
