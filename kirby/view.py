@@ -81,6 +81,11 @@ class View:
         self._conversation.unwatch(self._happened)
         self.world.close()
 
+    @property
+    def pose(self) -> Pose | None:
+        """Where the robot is; None before it has said so."""
+        return self._conversation.agent.pose
+
     # ------------------------------------------------------------------ what people do
     def deliver(self, event: Said) -> None:
         self._conversation.deliver(event)

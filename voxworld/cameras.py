@@ -97,13 +97,14 @@ class Viewpoint:
         return Camera((seat.x_m, seat.y_m, height_m), (focus.x_m, focus.y_m, height_m - drop_m))
 
     def _from_above(self, bounds: Bounds, fov_rad: float, aspect: float) -> Camera:
-        """Far enough to hold the bounds from any side, and one fifth farther for each step back."""
-        centre = bounds.centre
-        half_rad = min(fov_rad, 2 * math.atan(math.tan(fov_rad / 2) * aspect)) / 2
+        """Just far enough to hold the bounds, and one fifth farther for each step back.
+
+        The nearest edge, ``ahead_m`` before the centre, is what needs the room.
+        """
+        centre, half = bounds.centre, math.tan(fov_rad / 2)
         ahead_m, across_m = self._extents(bounds)
-        # The lying extent appears shortened by the elevation; the nearer edge needs a little more room.
-        reach_m = max(ahead_m * math.sin(ELEVATION_RAD) * 1.12, across_m / max(1.0, aspect), RADIUS_MIN_M)
-        distance_m = reach_m / math.tan(half_rad) * 1.2**self.steps_back + ahead_m * math.cos(ELEVATION_RAD)
+        reach_m = max(ahead_m * math.sin(ELEVATION_RAD) / half, across_m / (half * aspect), RADIUS_MIN_M)
+        distance_m = (reach_m + ahead_m * math.cos(ELEVATION_RAD)) * 1.2**self.steps_back
         away = Pose(centre.x_m, centre.y_m, self.turned_rad).ahead(-distance_m * math.cos(ELEVATION_RAD))
         return Camera((away.x_m, away.y_m, distance_m * math.sin(ELEVATION_RAD)), (centre.x_m, centre.y_m, 0.0))
 

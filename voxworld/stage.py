@@ -13,7 +13,7 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from .appearance import EXPLORED, PATH, REFERENT, ROBOT, UNEXPLORED, WALL, Colour, Shape
+from .appearance import EXPLORED, PATH, POINTED, REFERENT, ROBOT, UNEXPLORED, WALL, Colour, Shape
 from .bodies import unit_mesh
 from .coordinates import VirtualPoint, to_map
 from .motion import Placement, Vector, eased, placement_of, quaternion
@@ -251,7 +251,11 @@ class Stage:
             cast_shadow=False,
         )
         label = self._scene.add_label(
-            f"{name}/label", thing.label, position=(0.0, 0.0, height_m / 2 + 0.10), anchor="bottom-center"
+            f"{name}/label",
+            thing.label,
+            position=(0.0, 0.0, height_m / 2 + 0.10),
+            anchor="bottom-center",
+            font_screen_scale=0.85,
         )
         self._parts[thing.id] = {"body": body, "halo": halo, "label": label}
         self._shown[thing.id] = placement
@@ -271,12 +275,13 @@ class Stage:
     # ------------------------------------------------------------------ marks and lines
     def _disc(self, disc: Disc) -> viser.SceneNodeHandle:
         place = to_map(disc.centre)
+        height_m = 0.020 if disc.colour == POINTED else 0.012  # a pointed place lies on top of the place that is meant
         node = self._scene.add_cylinder(
             f"/marks/{disc.id}",
             radius=disc.radius_m,
             height=0.014,
             color=disc.colour,
-            position=(place.x_m, place.y_m, 0.014),
+            position=(place.x_m, place.y_m, height_m),
             opacity=0.85,
             cast_shadow=False,
         )
@@ -284,8 +289,8 @@ class Stage:
             self._scene.add_label(
                 f"/marks/{disc.id}/who",
                 disc.label,
-                position=(0.0, 0.0, 0.05),
-                anchor="top-center",
+                position=(0.0, -disc.radius_m - 0.05, 0.0),
+                anchor="center-left",
                 font_screen_scale=0.8,
             )
         return node

@@ -94,7 +94,7 @@ def condition_html(condition: Condition) -> str:
     )
     lamps = _lamp("robot", condition.robot_alive) + _lamp("bridge", condition.bridge_alive)
     return (
-        f'<div style="font:13px/1.4 system-ui,sans-serif;padding:6px 8px 0">{notice}'
+        f'<div style="font:13px/1.4 system-ui,sans-serif;padding:6px 8px">{notice}'
         f'<div style="display:flex;gap:12px;align-items:center"><b id="kirby-state">{escape(condition.state)}</b>'
         f'<span style="flex:1"></span>{lamps}</div>'
         f'<div style="color:#6b7280">{escape(condition.place)}</div></div>'

@@ -32,7 +32,7 @@ pytestmark = pytest.mark.physics
 Visit = Callable[[str], Any]
 KIRBY = (sys.executable, "-P", "-m", "kirby")
 KEYS = Keys()
-START_S, DRIVE_S, RECOVERY_S = 60.0, 60.0, 5.0
+START_S, DRIVE_S, RECOVERY_S = 60.0, 120.0, 60.0  # patience for a busy machine: how long it takes is in docs/view.md
 
 
 @contextmanager
