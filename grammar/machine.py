@@ -63,14 +63,10 @@ def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str]
     ``actions`` gives the action for a rule's alias (or its name); a rule without one and of one symbol passes its
     value on.
     """
-    from lark import Lark  # imported where it is used: it is the slowest import of the room
-
-    used = sorted(set(re.findall(r"\b[A-Z][A-Z_]+\b", re.sub(r"//.*", "", grammar))))
-    missing = sorted(set(used) - set(terminals))
+    missing = sorted(set(_terminals(grammar)) - set(terminals))
     if missing:
         raise ValueError(f"grammar uses {', '.join(missing)}, of which the lexicon has no words")
-    text = f"{grammar}\n%declare {' '.join(used)}\n"
-    parser: Any = Lark(text, parser="lalr", lexer="basic", start="start", maybe_placeholders=False)
+    parser = _compiled(grammar)
     table = parser.parser.parser._parse_table
     number = {state: index for index, state in enumerate(table.states)}
     known: dict[int, Reduction] = {}
@@ -94,6 +90,35 @@ def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str]
         tuple(reductions),
         tuple(gotos),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """One expansion of a symbol, and what it makes of the values of its parts."""
+
+    expansion: tuple[str, ...]
+    action: Action
+
+
+def grammar_rules(grammar: str, actions: Callable[[str], Action | None]) -> dict[str, tuple[Rule, ...]]:
+    """The rules of a grammar by the symbol they expand, with their actions as in `build_tables`."""
+    rules: dict[str, list[Rule]] = {}
+    for rule in _compiled(grammar).rules:
+        expansion = tuple(str(symbol.name) for symbol in rule.expansion)
+        reduction = _reduction(rule, actions)
+        rules.setdefault(reduction.origin, []).append(Rule(expansion, reduction.action))
+    return {symbol: tuple(found) for symbol, found in rules.items()}
+
+
+def _terminals(grammar: str) -> list[str]:
+    return sorted(set(re.findall(r"\b[A-Z][A-Z_]+\b", re.sub(r"//.*", "", grammar))))
+
+
+def _compiled(grammar: str) -> Any:
+    from lark import Lark  # imported where it is used: it is the slowest import of the room
+
+    text = f"{grammar}\n%declare {' '.join(_terminals(grammar))}\n"
+    return Lark(text, parser="lalr", lexer="basic", start="start", maybe_placeholders=False)
 
 
 def _reduction(rule: Any, actions: Callable[[str], Action | None]) -> Reduction:

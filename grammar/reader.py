@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import cache
-from pathlib import Path
 
 from voxml.terms import Form, Term
 from voxml.vocabulary import Lexicon
@@ -13,6 +11,7 @@ from voxml.vocabulary import Lexicon
 from .acts import DialogueAct, Function, NotUnderstood
 from .disfluency import Fluency
 from .expectations import describe_expected
+from .language import language_grammar
 from .lattice import DERIVED_TERMINALS, SEPARATORS, Lattice, WordReader
 from .machine import Machine, Tables, Trace, build_tables
 from .meaning import Meaning
@@ -22,7 +21,6 @@ from .tokens import MARKS, Token, Tokenizer
 TEXT_MAX_CHARS = 2_000
 READINGS_MAX = 12
 CLAUSES_MAX = 150
-LANGUAGES = Path(__file__).parent / "languages"
 _SOCIAL = frozenset({Function.ACKNOWLEDGE, Function.GREET, Function.THANK, Function.BYE, Function.CONFIRM})
 _STOP = Term("stop")
 
@@ -60,6 +58,19 @@ class Reader:
         if clauses:
             return _acts(tokens, clauses, corrects, self._is_control)
         return self._not_understood(text, tokens, attempt.trace)
+
+    def is_fluent(self, text: str) -> bool:
+        """Whether nothing in the text looks like a hesitation, a repetition or a repair."""
+        tokens = self._tokenizer(text)
+        return self._fluency.clean(tokens) == (tuple(tokens), False)
+
+    def readings(self, text: str) -> Iterator[tuple[Function, Form]]:
+        """Every reading of the text as one act, the preferred first; the same one may come by several ways."""
+        tokens, _ = self._fluency.clean(self._tokenizer(text))
+        lattice = Lattice(tokens, self._words)
+        for reading, end in self._machine.readings(0, lattice.edges, lattice.may_end, Trace()):
+            if end == len(tokens):
+                yield reading
 
     def _attempt(self, tokens: tuple[Token, ...]) -> _Attempt:
         return _Attempt(tokens, Lattice(tokens, self._words), self._machine)
@@ -170,12 +181,7 @@ def _corrected(clauses: list[Clause], corrects: bool, is_control: Callable[[Form
     return [replace(first, function=Function.CORRECT), *others]
 
 
-@cache
-def _language(language: str) -> str:
-    return (LANGUAGES / f"{language}.lark").read_text(encoding="utf-8")
-
-
 def _machine(lexicon: Lexicon, language: str, meaning: Meaning) -> tuple[Machine, Tables]:
     terminals = {*DERIVED_TERMINALS, *lexicon.categories(), *lexicon.closed.classes}
-    tables = build_tables(_language(language), terminals, meaning.action)
+    tables = build_tables(language_grammar(language), terminals, meaning.action)
     return Machine(tables), tables
