@@ -150,9 +150,8 @@ class WordReader:
         more = self._numbers.more(texts, at)
         if more is not None:
             found.append(Edge("QTY_MORE", Term("more", (Quantity(more[0]),)), more[1] - at))
-        if number is not None:
-            if number[0] == int(number[0]) and 1 <= number[0] <= CARDINAL_MAX:
-                found.append(Edge("CARDINAL", value, length))
+        if number is not None and number[0] == int(number[0]) and 1 <= number[0] <= CARDINAL_MAX:
+            found.append(Edge("CARDINAL", Quantity(number[0]), number[1] - at))
         return found
 
 

@@ -67,10 +67,9 @@ class Meaning:
         return self._fitter.program(readings, rest)
 
     def _done(self, verb: Any, event: tuple[Reading, ...], args: Args) -> Form:
-        """What an event noun says, of a light verb or of its own ("turn a ten degree angle"); "two pictures" are two."""
-        if isinstance(verb, tuple) and not {each.entry.lex.pred for each in verb} & {
-            each.entry.lex.pred for each in event
-        }:
+        """What an event noun says, of a light verb or its own ("turn a ten degree angle"); "two pictures" are two."""
+        meant = {each.entry.lex.pred for each in event}
+        if isinstance(verb, tuple) and meant.isdisjoint(each.entry.lex.pred for each in verb):
             raise Refused("a thing or place")
         try:
             return self._fitter.program(event, args)

@@ -114,6 +114,8 @@ class NumberReader:
         return at
 
     def _skip_more(self, tokens: Sequence[str], at: int, more: bool, only_plain: bool = False) -> tuple[int, bool]:
+        if at + 1 < len(tokens) and tokens[at] in self._articles and tokens[at + 1] in self._more:
+            at += 1
         while at < len(tokens) and tokens[at] in self._more and not (only_plain and tokens[at] not in self._more):
             at, more = at + 1, True
         return at, more
