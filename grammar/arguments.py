@@ -91,7 +91,7 @@ class ArgumentFitter:
 
     def implied(self, args: Args, preds: tuple[str, ...]) -> Form | None:
         """The program that arguments without a verb say all of: a side with an angle, a way with a distance."""
-        if len(args) < 2:
+        if len(args) < 2 or any(arg.kind is Kind.NUMBER and not _may_be_degrees(arg.form) for arg in args):
             return None
         try:
             return self.program([Reading(self._lexicon.programs[pred]) for pred in preds], args)
@@ -144,7 +144,7 @@ class ArgumentFitter:
                 return _said_in_full(form) if _unit_type(form) in types else None
             case Kind.NUMBER, Quantity(value=value):
                 unit = next((_TYPE_UNITS[kind] for kind in types if kind in _QUANTITIES), None)
-                too_few = unit is Unit.DEGREE and value < BARE_DEGREES_MIN
+                too_few = unit is Unit.DEGREE and not _may_be_degrees(arg.form)
                 return None if unit is None or too_few else Quantity(value, unit)
             case Kind.VAGUE, form:
                 return form if _QUANTITIES & set(types) - {"count"} else None
@@ -221,3 +221,8 @@ def _unit_type(form: Form) -> str:
 def _said_in_full(form: Form) -> Form:
     """ "another two feet" with its verb is two feet."""
     return form.args[0] if isinstance(form, Term) and isinstance(form.args[0], Quantity) else form
+
+
+def _may_be_degrees(form: Form) -> bool:
+    """Whether a number without its unit can be an angle: "turn left ninety", but not the "one" of "the left one"."""
+    return isinstance(form, Quantity) and form.value >= BARE_DEGREES_MIN

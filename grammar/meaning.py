@@ -15,6 +15,7 @@ from .phrases import YOU, Nominal, Pre, Such
 
 Act = tuple[Function, Form]
 _ALONE = frozenset({"through", "out_of", "past", "across", "around", "along", "over", "down", "up"})
+REPEATS_MAX = 20
 _IMPLIED = ("turn", "go", "sidestep")
 
 
@@ -56,6 +57,8 @@ class Meaning:
         """A verb with its arguments; light verbs leave the meaning to their noun ("take a picture")."""
         events = [arg for arg in args if arg.kind is Kind.EVENT]
         rest = tuple(arg for arg in args if arg.kind is not Kind.EVENT)
+        if len(events) > 1:
+            raise Refused("one thing to do")
         if events:
             return self._done(readings, events[0].readings, rest)
         if isinstance(readings, Term):
@@ -71,15 +74,14 @@ class Meaning:
         meant = {each.entry.lex.pred for each in event}
         if isinstance(verb, tuple) and meant.isdisjoint(each.entry.lex.pred for each in verb):
             raise Refused("a thing or place")
+        times = [arg.form for arg in args if arg.kind is Kind.NUMBER]
         try:
             return self._fitter.program(event, args)
         except Refused:
-            counts = [arg for arg in args if arg.kind is Kind.NUMBER]
-            if len(counts) != 1:
+            if len(times) != 1 or isinstance(verb, tuple) or not _is_count(times[0]):
                 raise
-        return Term(
-            "repeat", (counts[0].form, self._fitter.program(event, tuple(arg for arg in args if arg not in counts)))
-        )
+        once = self._fitter.program(event, tuple(arg for arg in args if arg.kind is not Kind.NUMBER))
+        return once if times[0] == Quantity(1) else Term("repeat", (times[0], once))
 
     def verb_led(self, lead: Form, readings: Any, args: Args = ()) -> Form:
         return self.verb(readings, args)
@@ -138,10 +140,21 @@ class Meaning:
         return Term("count", (what.described(), *what.modifiers))
 
     def q_count_where(self, how_many: Form, what: Nominal, be: Form, posts: tuple[Form, ...]) -> Form:
-        return Term("count", (what.described(), *what.modifiers, *posts))
+        return Term("count", (what.described(), *what.modifiers, *phrases.places(posts)))
 
     def q_what_kind(self, what: Form, kind: Nominal, be: Form, posts: tuple[Form, ...]) -> Form:
-        return Term("see", (phrases.phrase(Term("what"), kind), *posts))
+        return Term("see", (phrases.phrase(Term("what"), kind), *phrases.places(posts)))
+
+    def q_is_last(self, be: Form, what: Form) -> Form:
+        """ "is the block on the left": what was taken for a modifier is asked about."""
+        return Term("is", phrases.without_last(what))
+
+    def q_which_ordered(self, which: Form, kind: Nominal, be: Form, ordering: Form) -> Form:
+        """ "which door is nearest": the same as which is the nearest door."""
+        return phrases.phrase(Term("which"), phrases.ordered(kind, ordering))
+
+    def q_which_where(self, which: Form, kind: Nominal, be: Form, posts: tuple[Form, ...]) -> Form:
+        return Term("see", (phrases.phrase(Term("which"), kind), *phrases.places(posts)))
 
     def q_see_kind(self, what: Form, kind: Nominal, see: Form) -> Form:
         return Term("see", (phrases.phrase(Term("what"), kind),))
@@ -157,6 +170,10 @@ def parse_metres(number: Quantity) -> Form:
 def _pred(form: Form) -> str:
     assert isinstance(form, Term), form
     return form.pred
+
+
+def _is_count(form: Form) -> bool:
+    return isinstance(form, Quantity) and form.value == int(form.value) and 1 <= form.value <= REPEATS_MAX
 
 
 def _where(kind: Kind, form: Form) -> Form:
@@ -247,6 +264,7 @@ _PLAIN: dict[str, Action] = {
     "demonstrative": lambda form: form,
     "bare": phrases.bare_phrase,
     "pronoun": lambda form: form,
+    "indefinite": lambda form, posts: Term(_pred(form), phrases.places(posts)),
     "nominal": phrases.nominal,
     "nominal_post": lambda noun, posts: phrases.nominal(noun, (), posts),
     "nominal_pre": lambda pres, noun: phrases.nominal(noun, pres),
@@ -285,16 +303,20 @@ _PLAIN: dict[str, Action] = {
     "q_where": lambda where, what: Term("where", (what,)),
     "q_where_you": lambda where, you: Term("where", (YOU,)),
     "q_exists": lambda there, what: Term("exists", (what,)),
-    "q_exists_any": lambda there, posts: Term("exists", (Term("anything"), *posts)),
+    "q_exists_any": lambda there, posts: Term("exists", (Term("anything"), *phrases.places(posts))),
     "q_see": lambda see, what: Term("exists", (what,)),
     "q_far": lambda far, what: Term("distance", (what,)),
     "q_far_place": lambda far, place: Term("distance", (place,)),
     "q_property": lambda kind, what: Term(_pred(kind), (what,)),
     "q_what": lambda what, be, thing: Term("what", (thing,)),
-    "q_what_where": lambda what, be, posts: Term("see", (Term("what"), *posts)),
+    "q_what_where": lambda what, be, posts: Term("see", (Term("what"), *phrases.places(posts))),
     "q_is": lambda be, this, what: Term("is", (this, what)),
     "q_is_where": lambda be, what, where: Term("is", (what, where)),
     "q_know_what": lambda know, what, thing, be: Term("what", (thing,)),
+    "q_know_where": lambda know, where, thing, be: Term("where", (thing,)),
+    "q_know_far": lambda know, far, thing, be: Term("distance", (thing,)),
+    "q_which": lambda which, be, determiner, kind: phrases.phrase(Term("which"), kind),
+    "q_which_such": lambda which, kind, be, quality: Term("is", (phrases.phrase(Term("which"), kind), quality)),
     "q_know": lambda know, what: Term("know", (what,)),
     # statements
     "is_a": lambda what, be, thing: Term("is", (what, thing)),
