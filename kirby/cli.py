@@ -15,10 +15,11 @@ import typer
 from .errors import KirbyError, UsageError
 from .view_options import DEFAULT_PORT, LOOPBACK, ViewOptions
 
+_HELP = ["-h", "--help"]
+
 app = typer.Typer(
     name="kirby",
-    help="Steer a mobile robot with English and gesture through a shared virtual world.",
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": _HELP},
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     add_completion=False,
@@ -49,21 +50,9 @@ HostOption = Annotated[
 PortOption = Annotated[int, typer.Option("--port", min=0, max=65535, help="The view's port; 0 takes a free one.")]
 
 
-@app.callback(invoke_without_command=True, epilog="Example: kirby --world figure3")
-def _main(
-    context: typer.Context,
-    world: WorldOption = None,
-    redis: RedisOption = None,
-    speed: SpeedOption = None,
-    state: StateOption = None,
-    seed: SeedOption = None,
-    namespace: NamespaceOption = "",
-    view: ViewOption = False,
-    host: HostOption = LOOPBACK,
-    port: PortOption = DEFAULT_PORT,
-) -> None:
-    if context.invoked_subcommand is None:
-        repl(world, redis, speed, state, seed, namespace, view, host, port)
+@app.callback(epilog="Without a command it is kirby repl. Example: kirby --world figure3")
+def _group() -> None:
+    """Steer a mobile robot with English and gesture through a shared virtual world."""
 
 
 @app.command(epilog="Example: printf 'go forward\\nturn left\\n' | kirby repl --world figure3")
@@ -174,9 +163,12 @@ def main(arguments: list[str] | None = None) -> None:
     """The console script. Never returns: the process ends with the status this module's docstring gives."""
     from .rooms import check_rooms
 
+    given = sys.argv[1:] if arguments is None else arguments
+    if not given or (given[0].startswith("-") and given[0] not in _HELP):
+        given = ["repl", *given]
     try:
         check_rooms()
-        status: Any = app(args=arguments, prog_name="kirby", standalone_mode=False)
+        status: Any = app(args=given, prog_name="kirby", standalone_mode=False)
     except _WrongUse as error:
         where = error.ctx.command_path if error.ctx else "kirby"
         status = _fail(f"{error.format_message()} (see {where} --help)", 2)
