@@ -28,6 +28,7 @@ COMPASS_RAD = {
 
 _HALF_CONE_RAD = math.radians(60.0)  # how far from a side's axis something may lie and still be on that side
 _PAST_M = 0.01  # the landmarks themselves are not between themselves
+_ASIDE_M = 0.15  # half the robot's width: what lies nearer to its heading line is dead ahead or behind, on no side
 _BESIDE_LINE_M = 0.75  # how far from the line between two things something may lie and still be between them
 
 Places = NDArray[np.float64]  # shape (n, 2), map frame
@@ -47,8 +48,8 @@ def distances_m(place: tuple[float, float], xy_m: Places) -> NDArray[np.float64]
 
 # ------------------------------------------------------------------ to the robot
 REGIONS: Mapping[str, Callable[[Places], Mask]] = {
-    "left": lambda local: local[:, 1] > 0,
-    "right": lambda local: local[:, 1] < 0,
+    "left": lambda local: local[:, 1] > _ASIDE_M,
+    "right": lambda local: local[:, 1] < -_ASIDE_M,
     "ahead": lambda local: local[:, 0] > 0,
     "forward": lambda local: local[:, 0] > 0,
     "front": lambda local: local[:, 0] > 0,
