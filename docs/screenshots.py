@@ -28,6 +28,7 @@ from kirby.worlds import find_world, world_file
 from robot.geometry import Point
 from robot.process import RobotOptions, RobotProcess
 from robot.redis_server import RedisServer
+from voxworld.cameras import View as View3d
 
 FOLDER = Path(__file__).parent / "pictures"
 WORLD = "figure3"
@@ -42,18 +43,17 @@ def main(folder: Path) -> None:
         view = stack.enter_context(_kirby())
         page = stack.enter_context(_browser(view.world.url))
         _wait(lambda: view.world.people and view.world.people[0].shown is not None)
+        page.get_by_role("button", name="Kirby's view").click()
+        page.get_by_text("Kirby's camera").wait_for()
         _say(page, "go to the first fiducial on the right")
-        _take(page, folder / "view-driving.png", after=lambda: _x_m(view) > 0.8)
+        _take(page, folder / "view-robot.png", after=lambda: _x_m(view) > 0.2)
+        page.get_by_role("button", name="bird's eye").click()
+        _take(page, folder / "view-driving.png", after=lambda: _stands(view) and _x_m(view) > 0.9)
         _wait(lambda: _state(page) == "at rest")
         time.sleep(2.0)
         page.mouse.click(*_seen(page, view, Point(0.9, 0.35)))
         _say(page, "go there")
         _take(page, folder / "view-pointing.png", after=lambda: _state(page) == "driving" and _x_m(view) < 1.7)
-        _wait(lambda: _state(page) == "at rest")
-        page.get_by_role("button", name="Kirby's view").click()
-        _say(page, "go to the yellow box")
-        page.get_by_text("Kirby's camera").wait_for()
-        _take(page, folder / "view-robot.png", after=lambda: _state(page) == "driving" and _x_m(view) > 1.2)
 
 
 # ------------------------------------------------------------------ who takes part
@@ -104,6 +104,12 @@ def _say(page: Page, text: str) -> None:
 
 def _state(page: Page) -> str:
     return page.locator("#kirby-state").inner_text()
+
+
+def _stands(view: View) -> bool:
+    """Whether the camera has come to rest."""
+    person = view.world.people[0]
+    return person.viewpoint.view is View3d.BIRDS_EYE and person.shown == person.goal
 
 
 def _x_m(view: View) -> float:
