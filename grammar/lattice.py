@@ -14,11 +14,9 @@ from .tokens import MARKS, Token
 
 DERIVED_TERMINALS = ("QTY", "QTY_MORE", "NUMBER", "CARDINAL", "PREDICATIVE")
 SEPARATORS = frozenset({"AND", "THEN", "BEFORE_THAT", "BUT"})
-CLAUSE_OPENERS = frozenset(
-    {"VERB", "VERB_ING", "LEAD", "LEAD_ING", "LEAD_TO", "LEAD_PAST", "LIGHT", "IF", "UNTIL", "FORBID"}
-)
+CLAUSE_OPENERS = frozenset({"VERB", "LEAD", "LEAD_ING", "LEAD_TO", "LEAD_PAST", "LIGHT", "IF", "UNTIL", "FORBID"})
 BOUNDARIES = SEPARATORS | CLAUSE_OPENERS
-_FIRST_CHOICE = frozenset({"LIGHT", "WAY"})
+_FIRST_CHOICE = frozenset({"STOPPING", "LIGHT", "WAY"})
 _SECOND_CHOICE = frozenset({"PATH", "NUMBER", "CARDINAL"})
 CARDINAL_MAX = 100
 HOURS_MAX = 12
@@ -79,6 +77,9 @@ class WordReader:
         self._numbers = numbers
         self._skips = [word.words for word in lexicon.closed.words_of("skip")]
         self._copulas = frozenset(lexicon.closed.table("BE"))
+        self._determiners = frozenset(
+            word for word in lexicon.words() if any(sense.category == "DETERMINER" for sense in lexicon.lookup(word))
+        )
         self._names = frozenset(lexicon.closed.table("address"))
         self._refusals = frozenset(lexicon.closed.table("NO"))
         self._clock = frozenset(lexicon.closed.table("clock"))
@@ -126,12 +127,15 @@ class WordReader:
                 return tuple(edge for edge in found if edge.terminal != "DETERMINER")
             if word in self._names and at + 1 < len(texts):
                 return (Edge(None, None, 1), *found)
-        elif before in self._copulas:
-            return (
-                *found,
-                *(Edge("PREDICATIVE", edge.value, edge.length) for edge in found if edge.terminal == "ADJECTIVE"),
-            )
-        return found
+            return found
+        qualities = [edge for edge in found if edge.terminal == "ADJECTIVE"]
+        if not qualities:
+            return found
+        if at + 1 < len(texts) and texts[at + 1] in self._determiners:  # "near the door" is where, not what it is like
+            found = tuple(edge for edge in found if edge.terminal != "ADJECTIVE" or edge.length > 1)
+        asserted = before in self._copulas
+        predicative = (edge for edge in qualities if asserted or _ends(texts, at + edge.length))
+        return (*found, *(Edge("PREDICATIVE", edge.value, edge.length) for edge in predicative))
 
     def _amounts(self, texts: Sequence[str], at: int) -> list[Edge]:
         found = []
@@ -153,6 +157,10 @@ class WordReader:
         if number is not None and number[0] == int(number[0]) and 1 <= number[0] <= CARDINAL_MAX:
             found.append(Edge("CARDINAL", Quantity(number[0]), number[1] - at))
         return found
+
+
+def _ends(texts: Sequence[str], at: int) -> bool:
+    return at >= len(texts) or texts[at] in MARKS
 
 
 def _preference(edge: Edge) -> tuple[bool, int, int]:

@@ -16,6 +16,8 @@ from .phrases import YOU, Nominal, Pre, Such
 Act = tuple[Function, Form]
 _ALONE = frozenset({"through", "out_of", "past", "across", "around", "along", "over", "down", "up"})
 REPEATS_MAX = 20
+SIDES = (Term("left"), Term("right"))
+BEHIND = Term("behind")
 _IMPLIED = ("turn", "go", "sidestep")
 
 
@@ -25,6 +27,7 @@ class Meaning:
     def __init__(self, lexicon: Lexicon) -> None:
         self._fitter = ArgumentFitter(lexicon)
         self._lexicon = lexicon
+        self._indefinite = frozenset(lexicon.closed.table("INDEFINITE"))
 
     def action(self, rule: str) -> Action | None:
         """The action of a rule; None for one that has none."""
@@ -75,6 +78,9 @@ class Meaning:
         if isinstance(verb, tuple) and meant.isdisjoint(each.entry.lex.pred for each in verb):
             raise Refused("a thing or place")
         times = [arg.form for arg in args if arg.kind is Kind.NUMBER]
+        looking = self._looking(event, args)
+        if looking is not None:
+            return looking
         try:
             return self._fitter.program(event, args)
         except Refused:
@@ -82,6 +88,16 @@ class Meaning:
                 raise
         once = self._fitter.program(event, tuple(arg for arg in args if arg.kind is not Kind.NUMBER))
         return once if times[0] == Quantity(1) else Term("repeat", (times[0], once))
+
+    def _looking(self, event: tuple[Reading, ...], args: Args) -> Form | None:
+        """What is to be done towards a side begins with turning there: "take a picture to your left"."""
+        sides = [arg for arg in args if arg.kind is Kind.SIDE or _side_of(arg) is not None]
+        takes_side = any("side" in slot.types for reading in event for slot in reading.entry.args)
+        if len(sides) != 1 or takes_side:
+            return None
+        side = sides[0].form if sides[0].kind is Kind.SIDE else _side_of(sides[0])
+        turning = Term("turn_around") if side is None or side == BEHIND else Term("turn", (side,))
+        return Term("seq", (turning, self._fitter.program(event, tuple(arg for arg in args if arg not in sides))))
 
     def verb_led(self, lead: Form, readings: Any, args: Args = ()) -> Form:
         return self.verb(readings, args)
@@ -145,9 +161,15 @@ class Meaning:
     def q_what_kind(self, what: Form, kind: Nominal, be: Form, posts: tuple[Form, ...]) -> Form:
         return Term("see", (phrases.phrase(Term("what"), kind), *phrases.places(posts)))
 
-    def q_is_last(self, be: Form, what: Form) -> Form:
+    def q_exists(self, there: Form, what: Form) -> Form:
+        """ "is there anything on your left" asks as "is there anything" does, of a place."""
+        if isinstance(what, Term) and what.pred in self._indefinite:
+            return Term("exists", (Term(what.pred), *what.args))
+        return Term("exists", (what,))
+
+    def q_is_last(self, be: Form, determiner: Form, what: Nominal) -> Form:
         """ "is the block on the left": what was taken for a modifier is asked about."""
-        return Term("is", phrases.without_last(what))
+        return Term("is", phrases.without_last(phrases.phrase(determiner, what)))
 
     def q_which_ordered(self, which: Form, kind: Nominal, be: Form, ordering: Form) -> Form:
         """ "which door is nearest": the same as which is the nearest door."""
@@ -170,6 +192,16 @@ def parse_metres(number: Quantity) -> Form:
 def _pred(form: Form) -> str:
     assert isinstance(form, Term), form
     return form.pred
+
+
+def _side_of(arg: Arg) -> Form | None:
+    """The side of "(a picture) of what is on your left" or "behind you"."""
+    match arg.kind, arg.form:
+        case Kind.OF, Term(_, (Term("on", (Term() as side,)),)) if side in SIDES:
+            return side
+        case Kind.OF, Term(_, (Term("behind", (Term("you"),)),)):
+            return BEHIND
+    return None
 
 
 def _is_count(form: Form) -> bool:
@@ -212,6 +244,7 @@ _PLAIN: dict[str, Action] = {
     "act_rather": lambda mark, wrong, separator, right: (Function.CORRECT, right[0].form),
     "act_rather_first": lambda right, separator, mark, wrong: (Function.CORRECT, right[0].form),
     "act_not": lambda mark, wrong: (Function.CORRECT, Term("not", (wrong[0].form,))),
+    "stopping": lambda *said: Term("stop"),
     "act_until": lambda marker, condition: (Function.FRAGMENT, Term("until", (condition,))),
     "act_inform": _of(Function.INFORM),
     "act_confirm": _says(Function.CONFIRM, "yes"),
@@ -302,7 +335,6 @@ _PLAIN: dict[str, Action] = {
     # questions
     "q_where": lambda where, what: Term("where", (what,)),
     "q_where_you": lambda where, you: Term("where", (YOU,)),
-    "q_exists": lambda there, what: Term("exists", (what,)),
     "q_exists_any": lambda there, posts: Term("exists", (Term("anything"), *phrases.places(posts))),
     "q_see": lambda see, what: Term("exists", (what,)),
     "q_far": lambda far, what: Term("distance", (what,)),

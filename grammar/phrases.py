@@ -64,6 +64,14 @@ def headless(pres: tuple[Pre, ...], posts: tuple[Form | Such, ...] = ()) -> Nomi
     return nominal(ONE, pres, posts)
 
 
+def places(posts: tuple[Form | Such, ...]) -> tuple[Form, ...]:
+    """Modifiers without a noun: each must say where, since a quality needs something to be the quality of."""
+    found = tuple(post for post in posts if not isinstance(post, Such))
+    if len(found) < len(posts):
+        raise Refused("a thing or place")
+    return found
+
+
 def phrase(determiner: Form, what: Nominal) -> Form:
     """A noun phrase: orderings inside the determiner, modifiers inside the innermost of them."""
     assert isinstance(determiner, Term)
@@ -122,6 +130,23 @@ def on_side(side: Form) -> Term:
 def ahead(axis: Form) -> Term:
     """ "the door ahead", "the one behind" as seen by the robot."""
     return _AHEAD[_pred(axis)]
+
+
+def without_last(form: Form) -> tuple[Form, Form]:
+    """A phrase without the last modifier of its chain, and that modifier."""
+    match form:
+        case Term(pred, (core, *chain, last)):
+            return Term(pred, (core, *chain)), last
+        case Term(pred, (Term() as inner,)):
+            rest, last = without_last(inner)
+            return Term(pred, (rest,)), last
+        case _:
+            raise Refused("what about it")
+
+
+def ordered(what: Nominal, ordering: Form) -> Nominal:
+    """A noun with one more ordinal or superlative."""
+    return replace(what, orderings=(ordering, *what.orderings))
 
 
 def with_modifier(form: Form, modifier: Form) -> Form:
