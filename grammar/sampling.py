@@ -121,7 +121,9 @@ def _terminals(lexicon: Lexicon) -> dict[str, list[_Part]]:
             found.setdefault(sense.category, []).append(_Part(sense.words, sense.value))
     numbers = _numbers(lexicon)
     amounts = _amounts(lexicon, numbers)
-    found["NUMBER"] = found["CARDINAL"] = numbers
+    found["CARDINAL"] = numbers
+    # In digits: of two in a row, the words may be one number ("two twenty").
+    found["NUMBER"] = [_Part((str(part.value),), part.value) for part in numbers]
     found["QTY"] = amounts
     found["QTY_MORE"] = [_Part(("another", *part.words), Term("more", (part.value,))) for part in amounts]
     found["PREDICATIVE"] = found.get("ADJECTIVE", [])
