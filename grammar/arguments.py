@@ -172,6 +172,8 @@ class ArgumentFitter:
         return self._is_of_type(form, slot.types)
 
     def _place(self, slot: Argument, form: Form) -> Form | None:
+        if not slot.bare:
+            return None
         if "path" in slot.types:
             return Term("to", (form,))
         return form if {"place", "location", "physobj"} & set(slot.types) else None

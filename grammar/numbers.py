@@ -107,7 +107,7 @@ class NumberReader:
     def _skip_approximate(self, tokens: Sequence[str], at: int) -> int:
         """Past "about", "for", "at least", "maybe": the amount is taken as said."""
         while at < len(tokens) and tokens[at] in self._approximate_first:
-            length = next((n for n in (2, 1) if tuple(tokens[at : at + n]) in self._approximate), 0)
+            length = next((n for n in (3, 2, 1) if tuple(tokens[at : at + n]) in self._approximate), 0)
             if not length:
                 break
             at += length

@@ -22,8 +22,8 @@ def test_a_program_has_typed_arguments_and_a_body() -> None:
     entry = parse_entry(TURN, "turn.xml")
     assert isinstance(entry, ProgramEntry)
     assert entry.args[0].types == ("agent",)
-    assert entry.args[-1].default == Quantity(90, Unit.DEGREE)
-    assert entry.body[0].event.pred == "rotate"
+    assert entry.args[2].default == Quantity(90, Unit.DEGREE)
+    assert entry.body[-1].event.pred == "rotate"
 
 
 @pytest.mark.parametrize("folder", ENTRY_FOLDERS)
