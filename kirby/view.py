@@ -14,8 +14,9 @@ import redis
 
 from dialogue.events import Dispatch, Highlight, MoveCamera, Output, Pointing, Say, Utterance, WorldUpdate
 from dialogue.table import Activity
+from dialogue.wording import command_words
 from robot.geometry import Pose
-from robot.messages import Control, encode_command
+from robot.messages import CancelCommand, Control
 from voxml.vocabulary import Lexicon, load_lexicon
 from voxworld.front import Address, is_loopback
 from voxworld.talk import Condition, Errand, Remark, Side
@@ -100,7 +101,14 @@ class View:
         return ""
 
     def cancel(self, errand: str, who: str) -> None:
-        self.deliver(Utterance("cancel", self.clock(), speaker=who))
+        """One command of several, being done or waiting: the dialogue hears from the robot that it is gone."""
+        what = next((known.text for known in self._errands if known.id == errand), errand)
+        try:
+            self._send(Dispatch((CancelCommand(errand),), (f"cancel-{uuid.uuid4().hex[:12]}",)))
+        except redis.RedisError:
+            self.world.show_remark(Remark(Side.SYSTEM, "", f"'{what}' is not cancelled: Redis does not answer"))
+            return
+        self.world.show_remark(Remark(Side.SYSTEM, "", f"{who or 'somebody'} cancelled '{what}'"))
 
     def rename(self, entity: str, name: str, who: str) -> None:
         self.deliver(Utterance(f"call fiducial {entity} {name}", self.clock(), speaker=who))
@@ -155,7 +163,7 @@ class View:
         if condition != self._condition:
             self._condition = condition
             self.world.show_condition(condition)
-        errands = tuple(Errand(task.id, encode_command(task.command)) for task in agent.queue if task.moves)
+        errands = tuple(Errand(task.id, command_words(task.command)) for task in agent.queue if task.moves)
         if errands != self._errands:
             self._errands = errands
             self.world.show_errands(errands)

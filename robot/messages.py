@@ -86,13 +86,22 @@ class Control(Enum):
     TAKE_PICTURE = "take picture"
 
 
+@dataclass(frozen=True, slots=True)
+class CancelCommand:
+    """Drop the command that was sent under this id, whether it is being done or waits; the rest is recomputed (+)."""
+
+    of: str
+
+
 Movement = GoForward | GoTo | Turn | Patrol
-Command = Movement | Control
+Command = Movement | Control | CancelCommand
 
 _NUMBER = re.compile(r"-?[0-9]+(\.[0-9]+)?|-?\.[0-9]+")
 _CONTROLS = {control.value: control for control in Control}
-_USAGE = "go forward [d], go to X Y, turn left [a], turn right [a], patrol [s r i], " + ", ".join(
-    control.value for control in Control
+_USAGE = (
+    "go forward [d], go to X Y, turn left [a], turn right [a], patrol [s r i], "
+    + ", ".join(control.value for control in Control)
+    + ", cancel command ID"
 )
 
 
@@ -135,6 +144,12 @@ def _turn(side: Side, words: list[str]) -> Turn:
     return Turn(side, angle_deg)
 
 
+def _cancel_command(words: list[str]) -> CancelCommand:
+    if len(words) != 1 or len(words[0]) > ID_MAX_CHARS:
+        raise Malformed(f"'cancel command' takes one id of at most {ID_MAX_CHARS} characters: cancel command ID")
+    return CancelCommand(words[0])
+
+
 def _patrol(words: list[str]) -> Patrol:
     if not words:
         return Patrol()
@@ -149,12 +164,13 @@ def _patrol(words: list[str]) -> Patrol:
     return Patrol(int(words[0]), radius_m, increment_m)
 
 
-_MOVEMENTS: dict[tuple[str, ...], Callable[[list[str]], Movement]] = {
+_WITH_VALUES: dict[tuple[str, ...], Callable[[list[str]], Movement | CancelCommand]] = {
     ("go", "forward"): _go_forward,
     ("go", "to"): _go_to,
     ("turn", "left"): lambda words: _turn(Side.LEFT, words),
     ("turn", "right"): lambda words: _turn(Side.RIGHT, words),
     ("patrol",): _patrol,
+    ("cancel", "command"): _cancel_command,
 }
 
 
@@ -171,7 +187,7 @@ def decode_command(text: str) -> Command:
     if control is not None:
         return control
     for length in (2, 1):
-        read = _MOVEMENTS.get(tuple(words[:length]))
+        read = _WITH_VALUES.get(tuple(words[:length]))
         if read is not None:
             return read(words[length:])
     shown = " ".join(words)[:40]
@@ -190,6 +206,8 @@ def encode_command(command: Command) -> str:
             return f"turn {side.value} {format_number(angle_deg)}"
         case Patrol(sides, radius_m, increment_m):
             return f"patrol {sides} {format_number(radius_m)} {format_number(increment_m)}"
+        case CancelCommand(of):
+            return f"cancel command {of}"
         case Control():
             return command.value
 

@@ -26,7 +26,6 @@ COLOURS: Mapping[str, Colour] = {
     "brown": (139, 96, 62),
     "cyan": (64, 190, 205),
     "gray": (140, 146, 152),
-    "gray": (140, 146, 152),
     "green": (66, 160, 90),
     "magenta": (205, 70, 160),
     "orange": (238, 140, 52),

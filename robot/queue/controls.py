@@ -51,6 +51,18 @@ def _cancel(step: Step, id: str | None) -> str | None:
     return None
 
 
+def cancel_command(step: Step, of: str, id: str | None) -> str | None:
+    """As ``cancel``, for the movement that was sent under the id ``of``, whether it is being done or waits."""
+    goal = next((goal for goal in step.state.goals if goal.id == of), None)
+    if goal is None:
+        return f"nothing with the id {of} is being done or waits"
+    if step.state.current is not None and goal is step.state.current.goal:
+        return _cancel(step, id)
+    step.drop_pending(goal)
+    step.tell(FeedbackCode.CANCELLED_GOAL, id=id)
+    return None
+
+
 def _cancel_all(step: Step, id: str | None) -> str | None:
     step.drop_all()
     step.tell(FeedbackCode.CANCELLED_ALL, id=id)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from robot.messages import Command, Control, Envelope, FeedbackCode, GoForward, GoTo, Turn, ideal_end
+from robot.messages import CancelCommand, Command, Control, Envelope, FeedbackCode, GoForward, GoTo, Turn, ideal_end
 
-from .controls import CONTROLS
+from .controls import CONTROLS, cancel_command
 from .patrol import after_vertex
 from .state import (
     IDLE,
@@ -75,17 +75,24 @@ def handle(state: QueueState, event: Event, here: Here) -> tuple[QueueState, tup
 
 # ------------------------------------------------------------------ commands
 def _received(step: Step, entry: int, envelope: Envelope) -> None:
-    if not isinstance(envelope.command, Control):
+    command = envelope.command
+    if isinstance(command, CancelCommand):
+        _act_at_once(step, entry, envelope, cancel_command(step, command.of, envelope.id))
+    elif not isinstance(command, Control):
         _movement(step, entry, envelope)
-    elif envelope.command is Control.TAKE_PICTURE:
+    elif command is Control.TAKE_PICTURE:
         _take_picture(step, entry, envelope)
-    elif envelope.command is Control.GO_BACK:
+    elif command is Control.GO_BACK:
         _go_back(step, entry, envelope.id)
     else:
-        refusal = CONTROLS[envelope.command](step, envelope.id)
-        if refusal is not None:
-            step.tell(FeedbackCode.INVALID, id=envelope.id, detail=refusal)
-        step.forget(entry)
+        _act_at_once(step, entry, envelope, CONTROLS[command](step, envelope.id))
+
+
+def _act_at_once(step: Step, entry: int, envelope: Envelope, refusal: str | None) -> None:
+    """What does not queue has been done, or refused, by now."""
+    if refusal is not None:
+        step.tell(FeedbackCode.INVALID, id=envelope.id, detail=refusal)
+    step.forget(entry)
 
 
 def _not_done(step: Step, event: Garbled | Orphaned) -> None:

@@ -114,13 +114,16 @@ class Step:
     def go_on_from_here(self) -> None:
         """The rest of the queue, recomputed from where the robot really is."""
         self.effects.append(Halt())
-        start = self.here.pose
-        goals: list[Goal] = []
-        for goal in self.state.pending:
-            goals.append(replace(goal, start=start, end=ideal_end(start, goal.command)))
-            start = goals[-1].end
-        self.state = replace(self.state, current=None, pending=tuple(goals), anchor=None)
+        pending = _from(self.here.pose, self.state.pending)
+        self.state = replace(self.state, current=None, pending=pending, anchor=None)
         self.go_next()
+
+    def drop_pending(self, goal: Goal) -> None:
+        """End one that waits; those after it are recomputed from the ideal end of the one before it."""
+        at = self.state.pending.index(goal)
+        before, after = self.state.pending[:at], self.state.pending[at + 1 :]
+        self.drop(goal)
+        self.state = replace(self.state, pending=(*before, *_from(goal.start, after)))
 
     def pursue(self, current: Current) -> None:
         """Set the robot to this goal, from the start or from where it was paused."""
@@ -149,6 +152,15 @@ class Step:
         if anchor is None or pose.point.distance_to(anchor.point) > ANCHOR_M:
             return pose
         return anchor if abs(wrap_angle(pose.yaw_rad - anchor.yaw_rad)) <= ANCHOR_RAD else pose
+
+
+def _from(start: Pose, goals: tuple[Goal, ...]) -> tuple[Goal, ...]:
+    """The same goals, each from the ideal end of the one before."""
+    chained: list[Goal] = []
+    for goal in goals:
+        chained.append(replace(goal, start=start, end=ideal_end(start, goal.command)))
+        start = chained[-1].end
+    return tuple(chained)
 
 
 def _turn_rad(goal: Goal, pose: Pose) -> float:

@@ -6,7 +6,16 @@ import json
 from typing import Any
 
 from robot.geometry import Pose
-from robot.messages import Command, Control, Malformed, Patrol, decode_command, decode_object, encode_command
+from robot.messages import (
+    CancelCommand,
+    Command,
+    Control,
+    Malformed,
+    Patrol,
+    decode_command,
+    decode_object,
+    encode_command,
+)
 
 from .state import Current, Goal, Mode, QueueState
 
@@ -76,7 +85,8 @@ def _read_goal(entry: Any, command: Any, id: Any, start: Any, end: Any) -> Goal:
 
 def _read_command(text: str) -> Command:
     command = decode_command(text)
-    if isinstance(command, Control) and command not in (Control.GO_BACK, Control.TAKE_PICTURE):
+    at_once = isinstance(command, Control) and command not in (Control.GO_BACK, Control.TAKE_PICTURE)
+    if at_once or isinstance(command, CancelCommand):
         raise ValueError(f"'{text}' is no goal")
     return command
 

@@ -190,6 +190,16 @@ def test_redis_killed_and_started_again(bus: RedisServer, client: Any, tmp_path:
         assert pose(client).x_m > 1.8
 
 
+def test_any_command_of_several_can_be_cancelled(bus: RedisServer, client: Any, tmp_path: Path, visit: Visit) -> None:
+    with robot(bus, client, tmp_path), viewed(bus) as view:
+        page = visit(view.world.url)
+        say(page, "go forward two meters, then turn left, then go forward one meter")
+        page.get_by_role("button", name="turn left 90 degrees").click()
+        until(lambda: "cancelled 'turn left 90 degrees'" in conversation_of(page))
+        until(lambda: state(page) == "at rest", DRIVE_S)
+        assert pose(client).point.distance_to(Point(3.0, 0.0)) < 0.2
+
+
 def test_kirby_view_prints_one_address_and_ends_when_told(tmp_path: Path) -> None:
     with command("view", "--world", "figure3", "--port", "0", "--state", str(tmp_path)) as (process, lines):
         url = until(lambda: re.search(r"http://127\.0\.0\.1:\d+/", "".join(lines)), START_S)
