@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from grammar.acts import DialogueAct
+from grammar.acts import DialogueAct, Function
 from grammar.forms import Form, Name, Quantity, Term
 from grounding import Entity, Grounded, resolve
 from grounding.pointing import likely_rows
 
 from .events import Pointing, Tone
 from .fusion import fuse, pointing_form, recent, replaced
-from .instructions import confirm, instruct, obey
+from .instructions import ask_kirby, confirm, instruct, obey
 from .session import Question
 from .table import Activity, State
 from .turn import Turn
@@ -134,4 +134,7 @@ def _fill(turn: Turn, question: Question, filling: Form, time_s: float) -> None:
     hole = question.hole
     acts: tuple[DialogueAct, ...] = tuple(replace(act, form=replaced(act.form, hole, filling)) for act in question.acts)
     turn.settle()
-    obey(turn, acts, time_s)
+    if acts[0].function is Function.QUESTION:
+        ask_kirby(turn, acts[0], time_s)
+    else:
+        obey(turn, acts, time_s)

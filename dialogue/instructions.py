@@ -11,6 +11,7 @@ from robot.messages import Command, Control
 
 from .events import Tone
 from .fusion import demonstratives, fuse, recent
+from .performing import perform, reply
 from .planning import plan
 from .plans import Plan, Refusal, Refused
 from .session import Agenda, Question
@@ -63,6 +64,12 @@ def _fused(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> tuple[Di
     return tuple(fused)
 
 
+def ask_kirby(turn: Turn, act: DialogueAct, time_s: float) -> None:
+    """Answer a question of the person's. Kirby's own stays open meanwhile."""
+    (asked,) = _fused(turn, (act,), time_s)
+    reply(turn, asked)
+
+
 def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
     """Plan acts whose demonstratives are filled in, and send the plan, or ask, or refuse."""
     world = turn.session.world.with_robot(turn.session.start)
@@ -94,6 +101,8 @@ def _send(turn: Turn, made: Plan) -> None:
         turn.update(agenda=None)
     if made.then is not None:
         turn.update(agenda=Agenda(made.then))
+    for event in made.events:
+        perform(turn, event)
     if not made.commands:
         if made.then is not None:
             turn.say("Okay.")

@@ -26,7 +26,7 @@ from .events import (
     WorldUpdate,
 )
 from .fusion import REMEMBERED
-from .instructions import STOP, instruct, obey, stops
+from .instructions import STOP, ask_kirby, instruct, obey, stops
 from .news import hear_robot
 from .session import Session
 from .turn import Parser, Turn
@@ -130,6 +130,8 @@ def _respond(turn: Turn, act: DialogueAct, time_s: float) -> None:
             turn.say(_COURTESIES[act.function])
         case Function.ACKNOWLEDGE:
             pass
+        case Function.QUESTION:
+            ask_kirby(turn, act, time_s)
         case _ if answer(turn, act.form, time_s):
             pass
         case _ if turn.session.question is not None:

@@ -6,8 +6,8 @@ from collections import deque
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
-from grammar.forms import Form, Quantity, Term
-from grounding import Reason, Unresolved, World, resolve
+from grammar.forms import Form, Quantity, Term, Unit
+from grounding import Ambiguous, Reason, Unresolved, World, resolve
 from robot.messages import Patrol
 from voxml.schema import Guard, ProgramEntry
 from voxml.vocabulary import Lexicon
@@ -36,7 +36,7 @@ def plan(forms: tuple[Form, ...], world: World | None, lexicon: Lexicon) -> Plan
     except Stops as stop:
         return stop.outcome
     draft = planner.draft
-    return Plan(tuple(draft.commands), tuple(draft.entities), tuple(draft.places), then)
+    return Plan(tuple(draft.commands), tuple(draft.entities), tuple(draft.places), then, tuple(planner.events))
 
 
 class _Planner:
@@ -45,6 +45,7 @@ class _Planner:
     def __init__(self, world: World | None, lexicon: Lexicon) -> None:
         self.draft = Draft(world, lexicon)
         self.lexicon = lexicon
+        self.events: list[Term] = []
         self.known = tuple(self.draft.world.entities.index)
 
     def run(self, forms: Iterable[Form]) -> Deferred | None:
@@ -59,10 +60,7 @@ class _Planner:
             try:
                 following = self._step(form)
             except Stops as stop:
-                # What a primitive refuses is told of what was said.
-                if isinstance(stop.outcome, Refused) and stop.outcome.reason is not Refusal.TOO_LONG:
-                    stop.outcome = replace(stop.outcome, form=said)
-                raise
+                raise Stops(_told(stop.outcome, said)) from None
             is_operator = isinstance(form, Term) and form.pred in _OPERATORS
             todo.extendleft((next_, next_ if is_operator else said) for next_ in reversed(following))
         raise Stops(Refused(Refusal.TOO_LONG, Quantity(COMMANDS_MAX)))
@@ -132,10 +130,21 @@ class _Planner:
         """A step of a body: a primitive, which may have the name of a verb ("patrol"), or else another program."""
         primitive = PRIMITIVES.get(event.pred)
         if event.pred == "wait":
-            return [Term(_GO_ON, (Term(ELAPSED, event.args), Term("waiting")))]
+            return [_after(event.args)]
+        if event.pred == "unable":
+            raise Stops(Refused(Refusal.NO_PART, event.args[0]))
+        if event.pred == "dialogue":
+            return self._said(event)
         if primitive is None:
             return [event]
         primitive(self.draft, event)
+        return []
+
+    def _said(self, event: Term) -> list[Form]:
+        """What the dialogue does itself comes when what was sent before it has ended."""
+        if self.draft.commands:
+            return [_after((Quantity(0.0, Unit.SECOND),)), Term("event", (event,))]
+        self.events.append(event)
         return []
 
     def _unfolded(self, form: Term, entry: ProgramEntry, endless: bool = False) -> list[Form]:
@@ -169,6 +178,22 @@ class _Planner:
                 return not isinstance(outcome, Unresolved)
             case _:
                 raise Stops(Refused(Refusal.NOT_ABLE, condition))
+
+
+def _after(duration: tuple[Form, ...]) -> Term:
+    return Term(_GO_ON, (Term(ELAPSED, duration), Term("waiting")))
+
+
+def _told(outcome: Ambiguous | Unresolved | Refused, said: Form) -> Ambiguous | Unresolved | Refused:
+    """What a primitive refuses is told of what was said."""
+    match outcome:
+        case Refused(Refusal.TOO_LONG | Refusal.NOT_AFFORDED):
+            return outcome
+        case Refused(Refusal.NO_PART, Term(pred=part, args=())):
+            return replace(outcome, form=Term(part, (said,)))
+        case Refused():
+            return replace(outcome, form=said)
+    return outcome
 
 
 def _go_on(condition: Term) -> Term:

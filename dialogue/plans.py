@@ -20,6 +20,8 @@ class Refusal(Enum):
     UNKNOWN_PROGRAM = "unknown program"
     WRONG_ARGUMENT = "wrong argument"
     NO_SIDE = "no side"  # an angle without left or right
+    NOT_AFFORDED = "not afforded"  # a thing with which one cannot do so
+    NO_PART = "no part"  # the robot lacks what it takes: a hand, an arm
     NOT_ABLE = "not able"  # the robot has no such command
     CONDITION = "condition"  # an end or a condition that Kirby cannot tell
     BEYOND_LIMITS = "beyond limits"
@@ -28,7 +30,7 @@ class Refusal(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Refused:
-    """``form`` is the part that cannot be done."""
+    """``form`` is the part that cannot be done; for ``NO_PART`` what the robot lacks, for what: ``hand(open(it))``."""
 
     reason: Refusal
     form: Form
@@ -50,12 +52,16 @@ class Deferred:
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What to send, what it is about (the things and places meant, in the order of their mention), and what is left."""
+    """What to send, what it is about (the things and places meant, in the order of their mention), and what is left.
+
+    ``events`` are what the dialogue does itself.
+    """
 
     commands: tuple[Command, ...]
     entities: tuple[Entity, ...] = ()
     places: tuple[Point, ...] = ()
     then: Deferred | None = None
+    events: tuple[Term, ...] = ()
 
 
 Planning = Plan | Ambiguous | Unresolved | Refused

@@ -29,6 +29,7 @@ from robot.messages import (
 )
 from voxml.vocabulary import Lexicon
 
+from .affordances import check_afforded, check_thing
 from .plans import COMMANDS_MAX, Refusal, Refused, Stops
 from .programs import is_amount
 
@@ -139,9 +140,13 @@ class Draft:
         relation = self.lexicon.relations.get(goal.pred) if isinstance(goal, Term) and goal.args else None
         if relation is None or not isinstance(goal, Term):
             return self._places_or_things(goal, form)
+        for landmark in goal.args:
+            check_afforded(goal.pred, landmark, self.lexicon)
         if relation.value in BEFORE and len(goal.args) == 1:
             return self._places_or_things(goal.args[0], form)
         landmarks = tuple(m for arg in goal.args for m in self.meant(arg) if isinstance(m, Entity))
+        for thing in landmarks:
+            check_thing(goal.pred, thing, self.lexicon)
         place = goal_place(relation.value, self.world.robot.point, landmarks)
         if place is None:
             raise Stops(Refused(Refusal.NOT_ABLE, form))

@@ -56,6 +56,25 @@ class Question:
     asked: int = 1
 
 
+@dataclass(frozen=True, slots=True)
+class Past:
+    """An instruction that was carried out: its forms with all that was left open filled in, and where it began."""
+
+    forms: tuple[Form, ...]
+    commands: tuple[Command, ...]
+    start: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Routine:
+    """Something to do that was given a name, and perhaps a gesture."""
+
+    name: str
+    form: Form
+    gesture: str | None = None
+
+
+HISTORY_MAX = 8
 _UNKNOWN = World()
 
 
@@ -64,7 +83,8 @@ class Session:
     """One conversation. ``ideal`` is where the robot's last movement ends, or ended, if nothing goes wrong.
 
     ``pointings`` are those not yet used, the newest last. ``place`` is the place last spoken of. ``name`` begins the
-    id of every command: where several conversations reach one robot, each has its own.
+    id of every command: where several conversations reach one robot, each has its own. ``history`` is what was carried
+    out, the latest last; ``reason`` is why something last went otherwise, in words.
     """
 
     state: State = State.IDLE
@@ -79,6 +99,9 @@ class Session:
     agenda: Agenda | None = None
     pointings: tuple[Pointing, ...] = ()
     place: Point | None = None
+    history: tuple[Past, ...] = ()
+    routines: tuple[Routine, ...] = ()
+    reason: str = ""
 
     @property
     def moving(self) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 
 from grammar.acts import NotUnderstood
@@ -9,7 +10,8 @@ from grammar.forms import Form, Name, Quantity, Term
 from grounding import Entity, Reason, Unresolved, World
 from grounding.descriptions import PLURAL
 from grounding.ordering import ORDERINGS
-from robot.messages import Command, Control, GoForward, GoTo, Patrol, Side, Turn, format_number
+from robot.geometry import Point, Pose, wrap_angle
+from robot.messages import CancelCommand, Command, Control, GoForward, GoTo, Patrol, Side, Turn, format_number
 
 from .plans import Refusal, Refused
 
@@ -65,12 +67,21 @@ def phrase(form: Form) -> str:
             return _words(pred)
         case Term(pred=pred, args=(first, *modifiers)):
             inner = " ".join(phrase(m) for m in modifiers if not _is_pointing(m))
+            if pred == "plural":
+                return plural(phrase(first))
             if pred == "the" and _is_numbered(modifiers):
                 return f"{phrase(first)} {inner}"
             if pred in PLURAL and pred != "every":
-                return f"{_words(pred)} {phrase(first)}s {inner}".strip()
+                return f"{_words(pred)} {plural(phrase(first))} {inner}".strip()
             return f"{_words(pred)} {phrase(first)} {inner}".strip()
     raise AssertionError(form)
+
+
+def plural(noun: str) -> str:
+    """``blocks``, ``boxes``, ``people``, by the rule."""
+    if noun.endswith("person"):
+        return f"{noun.removesuffix('person')}people"
+    return f"{noun}es" if noun.endswith(("s", "x", "ch", "sh")) else f"{noun}s"
 
 
 def _is_numbered(parts: Iterable[Form]) -> bool:
@@ -85,6 +96,8 @@ def _indefinite(form: Form) -> str:
     """What one does not see: ``a purple block`` for ``the(purple(block))``."""
     if isinstance(form, Term) and form.pred in ("the", "a", "this", "that", "some", "any") and form.args:
         core = form.args[0]
+        if _is_pointing(core):
+            return "anything"
         if not (isinstance(core, Term) and core.pred in ORDERINGS):
             rest = phrase(Term("the", form.args)).removeprefix("the ")
             return rest if _is_numbered(form.args) else f"{'an' if rest[0] in 'aeiou' else 'a'} {rest}"
@@ -111,6 +124,8 @@ def command_words(command: Command) -> str:
             return f"patrol in {sides} sides from {_metres(radius_m)} by {_metres(increment_m)}"
         case Control():
             return command.value
+        case CancelCommand():
+            return "cancel one command"
 
 
 def turned(command: Turn) -> str:
@@ -120,6 +135,30 @@ def turned(command: Turn) -> str:
 
 def _metres(distance_m: float) -> str:
     return f"{format_number(distance_m)} meter{'' if distance_m == 1 else 's'}"
+
+
+# ------------------------------------------------------------------ places
+def metres(distance_m: float) -> str:
+    """A measured distance, to the hand's breadth that a map is good for: ``2.3 meters``, ``0.24 meters``."""
+    return _metres(round(distance_m, 1 if distance_m >= 1 else 2))
+
+
+def place_words(place: Point) -> str:
+    """A place on the map: ``(2.1, -0.5)``."""
+    return f"({format_number(round(place.x_m, 2))}, {format_number(round(place.y_m, 2))})"
+
+
+_AHEAD_DEG = 20.0
+_BESIDE_DEG = 70.0
+
+
+def direction(robot: Pose, place: Point) -> str:
+    """Which way from the robot: ``ahead``, ``ahead on the right``, ``on the left``, ``behind on the right``."""
+    angle_deg = math.degrees(wrap_angle(robot.point.bearing_to(place) - robot.yaw_rad))
+    along = "ahead" if abs(angle_deg) < _BESIDE_DEG else "behind" if abs(angle_deg) > 180 - _BESIDE_DEG else ""
+    if abs(angle_deg) <= _AHEAD_DEG or abs(angle_deg) >= 180 - _AHEAD_DEG:
+        return along
+    return f"{along} on the {'left' if angle_deg > 0 else 'right'}".strip()
 
 
 # ------------------------------------------------------------------ refusals
@@ -154,6 +193,12 @@ _REFUSALS = {
 
 def refused(refusal: Refused) -> str:
     """Why it cannot be done."""
+    match refusal:
+        case Refused(Refusal.NOT_AFFORDED, Term(pred=way, args=(thing,))):
+            return f"I can't go {_words(way)} {_indefinite(thing)}."
+        case Refused(Refusal.NO_PART, Term(pred=part, args=(wanted,))):
+            few = "" if part.endswith("s") else "an " if part[0] in "aeiou" else "a "
+            return f"I can't {phrase(wanted)}: that takes {few}{_words(part)}."
     return _REFUSALS[refusal.reason].format(phrase(refusal.form))
 
 

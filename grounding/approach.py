@@ -27,8 +27,8 @@ def approach(entity: Entity, walls: tuple[Segment, ...]) -> Pose:
     robot will find out.
     """
     places = list(_choices(entity.pose))
-    ends = _ends(walls)
-    best = next((p for p in places if is_free(p, ends) and _sees(p, entity.point, ends)), places[0])
+    ends = wall_ends_m(walls)
+    best = next((p for p in places if is_free(p, ends) and sees(p, entity.point, ends)), places[0])
     return Pose(best.x_m, best.y_m, best.bearing_to(entity.point))
 
 
@@ -39,7 +39,7 @@ def _choices(front: Pose) -> Iterator[Point]:
     yield from sorted(fan, key=first.distance_to)
 
 
-def _ends(walls: tuple[Segment, ...]) -> NDArray[np.float64]:
+def wall_ends_m(walls: tuple[Segment, ...]) -> NDArray[np.float64]:
     """Shape (n, 4): x and y of start and end."""
     rows = [(w.start.x_m, w.start.y_m, w.end.x_m, w.end.y_m) for w in walls]
     return np.array(rows, dtype=np.float64).reshape(-1, 4)
@@ -55,7 +55,7 @@ def is_free(place: Point, ends_m: NDArray[np.float64]) -> bool:
     return bool(np.all(gaps >= _CLEARANCE_M))
 
 
-def _sees(place: Point, target: Point, ends_m: NDArray[np.float64]) -> bool:
+def sees(place: Point, target: Point, ends_m: NDArray[np.float64]) -> bool:
     """Whether no wall stands between; walls within a hand's breadth of the target are what it hangs on."""
     reach_m = max(place.distance_to(target) - 0.1, 0.0)
     end = place.moved(reach_m, place.bearing_to(target))

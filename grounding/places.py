@@ -67,8 +67,13 @@ _PLACES: Mapping[str, _Place] = {
 
 def free_way_m(heading: Pose, walls: tuple[Segment, ...]) -> float:
     """How far the robot can drive straight on until the first wall that the map shows, with room left to turn."""
-    ahead = [distance_m for wall in walls if (distance_m := _crossing_m(heading, wall)) is not None]
-    return max(min(ahead, default=_OPEN_M + _SHORT_OF_WALL_M) - _SHORT_OF_WALL_M, 0.0)
+    ahead_m = wall_ahead_m(heading, walls)
+    return max((_OPEN_M + _SHORT_OF_WALL_M if ahead_m is None else ahead_m) - _SHORT_OF_WALL_M, 0.0)
+
+
+def wall_ahead_m(heading: Pose, walls: tuple[Segment, ...]) -> float | None:
+    """How far straight ahead the first wall is; None where the map shows none."""
+    return min((away_m for wall in walls if (away_m := _crossing_m(heading, wall)) is not None), default=None)
 
 
 def _crossing_m(heading: Pose, wall: Segment) -> float | None:

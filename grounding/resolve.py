@@ -64,7 +64,7 @@ def _word(form: Term, world: World) -> Resolution | None:
     match form.pred:
         case "here" | "you":
             return Grounded((world.robot.point,))
-        case "there":
+        case "there" | "this" | "that" | "these" | "those":
             return Unresolved(Reason.NEEDS_POINTING, form)
         case "it" | "them":
             spoken_of = tuple(filter(None, map(world.entities.get, world.focus[:1])))
@@ -123,7 +123,7 @@ def _reading(description: Description, chain: tuple[Term, ...], world: World, le
             rows = modified(modifier, rows, world, lexicon, lambda form: resolve(form, world, lexicon))
     if description.determiner in EXCLUDING and world.focus:
         rows = np.extract(rows != world.entities.index.get(world.focus[0], -1), rows)
-    if description.noun == ONE:
+    if description.noun == ONE and description.pointing is None:
         rows = _of_the_kind_spoken_of(rows, world)
     if description.ordering is not None:
         assert isinstance(description.form, Term)
