@@ -63,7 +63,7 @@ def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str]
     ``actions`` gives the action for a rule's alias (or its name); a rule without one and of one symbol passes its
     value on.
     """
-    missing = sorted(set(_terminals(grammar)) - set(terminals))
+    missing = sorted(set(terminals_of(grammar)) - set(terminals))
     if missing:
         raise ValueError(f"grammar uses {', '.join(missing)}, of which the lexicon has no words")
     parser = _compiled(grammar)
@@ -110,14 +110,15 @@ def grammar_rules(grammar: str, actions: Callable[[str], Action | None]) -> dict
     return {symbol: tuple(found) for symbol, found in rules.items()}
 
 
-def _terminals(grammar: str) -> list[str]:
+def terminals_of(grammar: str) -> list[str]:
+    """The names of the terminals that a grammar uses."""
     return sorted(set(re.findall(r"\b[A-Z][A-Z_]+\b", re.sub(r"//.*", "", grammar))))
 
 
 def _compiled(grammar: str) -> Any:
     from lark import Lark  # imported where it is used: it is the slowest import of the room
 
-    text = f"{grammar}\n%declare {' '.join(_terminals(grammar))}\n"
+    text = f"{grammar}\n%declare {' '.join(terminals_of(grammar))}\n"
     return Lark(text, parser="lalr", lexer="basic", start="start", maybe_placeholders=False)
 
 

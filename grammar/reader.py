@@ -13,7 +13,7 @@ from .disfluency import Fluency
 from .expectations import describe_expected
 from .language import language_grammar
 from .lattice import DERIVED_TERMINALS, SEPARATORS, Lattice, WordReader
-from .machine import Machine, Tables, Trace, build_tables
+from .machine import Action, Machine, Tables, Trace, build_tables
 from .meaning import Meaning
 from .numbers import NumberReader
 from .tokens import MARKS, Token, Tokenizer
@@ -43,7 +43,8 @@ class Reader:
         numbers = NumberReader(lexicon.closed)
         meaning = Meaning(lexicon)
         self._lexicon = lexicon
-        self._machine, self._tables = _machine(lexicon, language, meaning)
+        self._tables = tables_of(lexicon, language, meaning.action)
+        self._machine = Machine(self._tables)
         self._words = WordReader(lexicon, numbers)
         self._tokenizer = Tokenizer(lexicon.closed)
         self._fluency = Fluency(lexicon, numbers)
@@ -59,6 +60,14 @@ class Reader:
             return _acts(tokens, clauses, corrects, self._is_control)
         return self._not_understood(text, tokens, attempt.trace)
 
+    def tokens(self, text: str) -> tuple[Token, ...]:
+        """The words that are read: without hesitations, repetitions and what was taken back."""
+        return self._fluency.clean(self._tokenizer(text))[0]
+
+    def lattice(self, tokens: tuple[Token, ...]) -> Lattice:
+        """The ways to read them, by the lexicon."""
+        return Lattice(tokens, self._words)
+
     def is_fluent(self, text: str) -> bool:
         """Whether nothing in the text looks like a hesitation, a repetition or a repair."""
         tokens = self._tokenizer(text)
@@ -66,14 +75,14 @@ class Reader:
 
     def readings(self, text: str) -> Iterator[tuple[Function, Form]]:
         """Every reading of the text as one act, the preferred first; the same one may come by several ways."""
-        tokens, _ = self._fluency.clean(self._tokenizer(text))
-        lattice = Lattice(tokens, self._words)
+        tokens = self.tokens(text)
+        lattice = self.lattice(tokens)
         for reading, end in self._machine.readings(0, lattice.edges, lattice.may_end, Trace()):
             if end == len(tokens):
                 yield reading
 
     def _attempt(self, tokens: tuple[Token, ...]) -> _Attempt:
-        return _Attempt(tokens, Lattice(tokens, self._words), self._machine)
+        return _Attempt(tokens, self.lattice(tokens), self._machine)
 
     def _is_control(self, form: Form) -> bool:
         """Whether the form only tells the robot's queue what to do: that corrects nothing, whatever came before."""
@@ -181,7 +190,7 @@ def _corrected(clauses: list[Clause], corrects: bool, is_control: Callable[[Form
     return [replace(first, function=Function.CORRECT), *others]
 
 
-def _machine(lexicon: Lexicon, language: str, meaning: Meaning) -> tuple[Machine, Tables]:
+def tables_of(lexicon: Lexicon, language: str, actions: Callable[[str], Action | None]) -> Tables:
+    """A language's grammar as tables over the categories of a lexicon."""
     terminals = {*DERIVED_TERMINALS, *lexicon.categories(), *lexicon.closed.classes}
-    tables = build_tables(language_grammar(language), terminals, meaning.action)
-    return Machine(tables), tables
+    return build_tables(language_grammar(language), terminals, actions)
