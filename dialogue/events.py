@@ -82,6 +82,16 @@ class Gesture:
 
 
 @dataclass(frozen=True, slots=True)
+class Naming:
+    """Somebody wrote a name beside a thing; ``id`` is the world model's."""
+
+    id: str
+    name: str
+    time_s: float
+    speaker: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class RobotFeedback:
     """Feedback from the robot, in the order in which it was published."""
 
@@ -106,7 +116,7 @@ class Tick:
     time_s: float
 
 
-Event = Utterance | Pointing | Gesture | RobotFeedback | WorldUpdate | Tick
+Event = Utterance | Pointing | Gesture | Naming | RobotFeedback | WorldUpdate | Tick
 
 
 # ------------------------------------------------------------------ out

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import redis
 
-from dialogue.events import Dispatch, Highlight, MoveCamera, Output, Pointing, Say, Utterance, WorldUpdate
+from dialogue.events import Dispatch, Highlight, MoveCamera, Naming, Output, Pointing, Say, Utterance, WorldUpdate
 from dialogue.table import Activity
 from dialogue.wording import command_words
 from robot.geometry import Pose
@@ -111,7 +111,7 @@ class View:
         self.world.show_remark(Remark(Side.SYSTEM, "", f"{who or 'somebody'} cancelled '{what}'"))
 
     def rename(self, entity: str, name: str, who: str) -> None:
-        self.deliver(Utterance(f"call fiducial {entity} {name}", self.clock(), speaker=who))
+        self._conversation.deliver(Naming(entity, name, self.clock(), who))
 
     def clock(self) -> float:
         return self._conversation.clock()

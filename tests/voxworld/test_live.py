@@ -154,6 +154,12 @@ def test_seeing_pointing_talking_and_stopping(bus: RedisServer, client: Any, tmp
         until(lambda: state(page) == "paused")
         stopped = pose(client)
         assert "Guest pressed Stop" in conversation_of(page)
+        page.get_by_text("Things found").click()
+        name = page.locator("form input").nth(1)
+        name.fill("Rosie")
+        name.press("Enter")
+        until(lambda: "I call it Rosie" in conversation_of(page))
+        until(lambda: '"Rosie (' in view.world.scene_json())
         page.get_by_role("button", name="Kirby's view").click()
         page.get_by_text("Kirby's camera").wait_for()
         assert pose(client).point.distance_to(stopped.point) < 0.02
