@@ -78,8 +78,10 @@ class Kirby:
         self.process.stdout.close()
 
     def drained(self):
+        """Nothing is left to do, and all that was said of it has been read: an ending comes with its removal."""
+        empty = self.client.llen("Kirby") + self.client.llen("Kirby_Queue") == 0
         self.read()
-        return self.client.llen("Kirby") + self.client.llen("Kirby_Queue") == 0
+        return empty
 
     def finished(self):
         """Everything done; a robot that came up paused is told to go on."""
