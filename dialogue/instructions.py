@@ -11,10 +11,11 @@ from robot.messages import Command, Control
 
 from .events import Tone
 from .fusion import demonstratives, fuse, recent
+from .leaning import leaned
 from .performing import perform, reply
 from .planning import plan
 from .plans import Plan, Refusal, Refused
-from .session import Agenda, Question
+from .session import HISTORY_MAX, Agenda, Past, Question
 from .table import Activity, Trigger
 from .turn import Turn
 from .wording import command_words, listed, name_entities, refused, unresolved
@@ -46,7 +47,8 @@ def obey(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
         sure = tuple(replace(act, repaired=None) for act in acts)
         turn.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {repaired[0]}?", sure))
         return
-    carry_out(turn, _fused(turn, acts, time_s))
+    fused = _fused(turn, acts, time_s)
+    carry_out(turn, tuple(replace(act, form=leaned(act.form, turn.session)) for act in fused))
 
 
 def _fused(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> tuple[DialogueAct, ...]:
@@ -67,7 +69,7 @@ def _fused(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> tuple[Di
 def ask_kirby(turn: Turn, act: DialogueAct, time_s: float) -> None:
     """Answer a question of the person's. Kirby's own stays open meanwhile."""
     (asked,) = _fused(turn, (act,), time_s)
-    reply(turn, asked)
+    reply(turn, replace(asked, form=leaned(asked.form, turn.session)))
 
 
 def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
@@ -76,7 +78,7 @@ def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
     outcome = plan(tuple(act.form for act in acts), world, turn.lexicon)
     match outcome:
         case Plan():
-            _send(turn, outcome)
+            _send(turn, outcome, tuple(act.form for act in acts))
         case Ambiguous(form, candidates):
             ids = tuple(entity.id for entity in candidates)
             text = f"Which one: {listed(name_entities(candidates, world))}?"
@@ -95,7 +97,7 @@ def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
             turn.say(refused(outcome), Tone.REFUSAL)
 
 
-def _send(turn: Turn, made: Plan) -> None:
+def _send(turn: Turn, made: Plan, forms: tuple[Form, ...]) -> None:
     """Send a plan, unless the robot would refuse it where it is: then offer what would have to be done first."""
     if not set(made.commands) <= _PASSING:
         turn.update(agenda=None)
@@ -111,9 +113,12 @@ def _send(turn: Turn, made: Plan) -> None:
     turn.highlight(tuple(entity.id for entity in made.entities), made.places)
     turn.update(
         world=turn.session.world.speaking_of(tuple(entity.id for entity in reversed(made.entities))),
-        place=made.places[-1] if made.places else turn.session.place,
+        place=made.places[-1] if made.places else None if made.entities else turn.session.place,
     )
     first = _in_the_way(turn) if moving and not _CLEARING & set(made.commands) else None
+    past = (*turn.session.history, Past(forms, made.commands, turn.session.start))[-HISTORY_MAX:] if moving else None
+    if past is not None:
+        turn.update(history=past)
     if first is None:
         turn.dispatch(made.commands)
         return
@@ -122,8 +127,16 @@ def _send(turn: Turn, made: Plan) -> None:
     turn.ask(Trigger.ASK_CONFIRMATION, Question(f"{offer} and {order}?", commands=(command, *made.commands)))
 
 
+def cancel_all(turn: Turn) -> None:
+    """Drop everything at once, so that something else can be done from wherever the robot then is."""
+    turn.dispatch((Control.CANCEL_ALL,))
+    turn.update(ideal=None, agenda=None)
+
+
 def _in_the_way(turn: Turn) -> tuple[str, Command] | None:
     """What keeps the robot from new movements, as an offer to drop it, and the command that does."""
+    if turn.cleared:
+        return None
     if turn.session.activity is Activity.PATROLLING:
         return "I am patrolling. Shall I stop the patrol", Control.STOP_PATROL
     if turn.session.activity in (Activity.PAUSED, Activity.LEFT_OVER):

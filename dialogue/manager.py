@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from grammar.acts import DialogueAct, Function, NotUnderstood
 from grammar.forms import Term
+from grounding import StandsFor
 from voxml.vocabulary import Lexicon
 
 from .agenda import go_on
 from .answers import answer, ask_again, no, pointed, yes
+from .common_ground import said_fragment, said_instead
 from .events import (
     CameraMove,
     Event,
@@ -15,6 +19,7 @@ from .events import (
     GestureKind,
     Highlight,
     MoveCamera,
+    Naming,
     Output,
     PointedObject,
     PointedPlace,
@@ -66,6 +71,8 @@ class DialogueManager:
                 _see_pointing(turn, event)
             case Gesture():
                 _see_gesture(turn, event)
+            case Naming():
+                _see_name(turn, event)
             case RobotFeedback():
                 hear_robot(turn, event)
             case WorldUpdate():
@@ -134,8 +141,12 @@ def _respond(turn: Turn, act: DialogueAct, time_s: float) -> None:
             ask_kirby(turn, act, time_s)
         case _ if answer(turn, act.form, time_s):
             pass
+        case Function.CORRECT:
+            said_instead(turn, act, time_s)
         case _ if turn.session.question is not None:
             ask_again(turn)
+        case Function.FRAGMENT:
+            said_fragment(turn, act, time_s)
         case _:
             turn.say("I understand the words, but not what you want me to do.", Tone.REFUSAL)
 
@@ -165,6 +176,20 @@ def _see_gesture(turn: Turn, event: Gesture) -> None:
             turn.outputs.append(MoveCamera(_CAMERA[kind]))
         case _:
             turn.say("I don't know that gesture.", Tone.REFUSAL)
+
+
+def _see_name(turn: Turn, event: Naming) -> None:
+    """A name that was written is taken as it stands; what the thing is, it stays."""
+    world = turn.session.world
+    thing = world.entities.get(event.id)
+    if thing is None or thing.fiducial_id is None:
+        turn.say("I don't see what you named.", Tone.REFUSAL)
+        return
+    known = next((m for m in world.catalogue if m.fiducial_id == thing.fiducial_id), None)
+    meaning = known or StandsFor(thing.fiducial_id, thing.type)
+    others = tuple(name for name in meaning.names if name != event.name)
+    turn.update(world=world.taught(replace(meaning, names=(event.name, *others))))
+    turn.say(f"I call it {event.name} from now on.")
 
 
 # ------------------------------------------------------------------ senses

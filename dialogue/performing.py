@@ -38,7 +38,7 @@ def _tell(turn: Turn, told: Report) -> None:
 def _speak_of(turn: Turn, things: tuple[Entity, ...]) -> None:
     ids = tuple(thing.id for thing in things)
     turn.highlight(ids, ())
-    turn.update(world=turn.session.world.speaking_of(ids))
+    turn.update(world=turn.session.world.speaking_of(ids), place=None if ids else turn.session.place)
 
 
 def perform(turn: Turn, event: Term) -> None:

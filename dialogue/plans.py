@@ -14,6 +14,10 @@ COMMANDS_MAX = 100
 """In one utterance; more is more likely misunderstood than meant."""
 
 
+OPERATORS = frozenset({"seq", "repeat", "until", "if", "when"})
+"""Forms over programs that are instructions like them."""
+
+
 class Refusal(Enum):
     """Why something that was understood cannot be done."""
 

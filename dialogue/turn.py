@@ -19,13 +19,17 @@ Parser = Callable[[str], tuple[DialogueAct, ...] | NotUnderstood]
 
 
 class Turn:
-    """A working copy of the session; it ends with the handling of its event."""
+    """A working copy of the session; it ends with the handling of its event.
+
+    ``cleared`` is true once everything was canceled in this step, so that nothing stands in the way any more.
+    """
 
     def __init__(self, session: Session, lexicon: Lexicon, parse: Parser) -> None:
         self.session = session
         self.lexicon = lexicon
         self.parse = parse
         self.outputs: list[Output] = []
+        self.cleared = False
 
     def update(self, **changes: Any) -> None:
         """Set fields of the session."""
@@ -66,6 +70,7 @@ class Turn:
         for command in commands:
             ideal = ideal_end(ideal, command)
         moving = any(task.moves for task in tasks)
+        self.cleared = self.cleared or Control.CANCEL_ALL in commands
         self.update(tasks=self.session.tasks + tasks, sent=self.session.sent + len(commands))
         if moving:
             self.update(ideal=None if Control.GO_BACK in commands else ideal)

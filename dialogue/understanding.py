@@ -11,13 +11,12 @@ from robot.messages import encode_command
 from voxml.vocabulary import Lexicon
 
 from .planning import plan
-from .plans import Plan, Refusal, Refused
+from .plans import OPERATORS, Plan, Refusal, Refused
 from .turn import Parser
 from .wording import listed, name_entities, not_understood, refused, unresolved
 
 _NOWHERE = World()
 _STOP = Term("stop")
-OPERATORS = frozenset({"seq", "repeat", "until", "if", "when"})
 
 
 def understand(text: str, world: World | None, lexicon: Lexicon, parse: Parser) -> dict[str, Any]:

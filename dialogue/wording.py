@@ -59,22 +59,24 @@ def phrase(form: Form) -> str:
             return text
         case Term(pred="entity" | "pointed"):
             return "that"
-        case Term(pred="number", args=(number,)):
+        case Term(pred="number", args=(Quantity() as number,)):
             return phrase(number)
         case Term(pred="on" | "to", args=(Term(pred="left" | "right" as side, args=()),)):
             return f"on the {side}"
         case Term(pred=pred, args=()):
             return _words(pred)
+        case Term(pred="plural", args=(noun,)):
+            return plural(phrase(noun))
         case Term(pred=pred, args=(first, *modifiers)):
-            inner = " ".join(phrase(m) for m in modifiers if not _is_pointing(m))
-            if pred == "plural":
-                return plural(phrase(first))
-            if pred == "the" and _is_numbered(modifiers):
-                return f"{phrase(first)} {inner}"
-            if pred in PLURAL and pred != "every":
-                return f"{_words(pred)} {plural(phrase(first))} {inner}".strip()
-            return f"{_words(pred)} {phrase(first)} {inner}".strip()
+            return _with_rest(pred, first, " ".join(phrase(m) for m in modifiers if not _is_pointing(m)), modifiers)
     raise AssertionError(form)
+
+
+def _with_rest(pred: str, first: Form, rest: str, modifiers: Sequence[Form]) -> str:
+    if pred == "the" and _is_numbered(modifiers):
+        return f"{phrase(first)} {rest}"
+    noun = plural(phrase(first)) if pred in PLURAL and pred != "every" else phrase(first)
+    return f"{_words(pred)} {noun} {rest}".strip()
 
 
 def plural(noun: str) -> str:
@@ -207,6 +209,8 @@ def unresolved(failure: Unresolved) -> str:
     match failure.reason:
         case Reason.NOTHING_FITS:
             return f"I don't see {_indefinite(failure.form)}."
+        case Reason.TOO_FEW if not failure.count:
+            return f"I don't see {phrase(failure.form)}."
         case Reason.TOO_FEW:
             return f"I don't see {phrase(failure.form)}: there {_there_are(failure.count)}."
         case Reason.POINTED_ELSEWHERE:
