@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -96,19 +97,34 @@ def view(
 def parse(
     text: Annotated[list[str] | None, typer.Argument(help="What is said; without it, a line each from a pipe.")] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object a line.")] = False,
+    explain: Annotated[bool, typer.Option("--explain", help="Show tokens and derivation too.")] = False,
     world: WorldOption = None,
 ) -> None:
     """Show what Kirby makes of an utterance: the act, its logical form, and the commands that would be sent."""
     from .reading import reader, show_record
 
+    if explain and as_json:
+        raise typer.BadParameter("--explain is for people to read, --json for programs: give one of them")
     read = reader(world)
+    show: Callable[[dict[str, Any]], str] = show_record
+    if explain:
+        from .explaining import explainer
+
+        show = _also(explainer())
     utterances = [" ".join(text)] if text else (line.rstrip("\r\n") for line in sys.stdin)
     understood = True
     for utterance in utterances:
         record = read(utterance)
         understood = understood and record["status"] != "not_understood"
-        print(json.dumps(record, ensure_ascii=False) if as_json else show_record(record), flush=True)
+        print(json.dumps(record, ensure_ascii=False) if as_json else show(record), flush=True)
     raise typer.Exit(0 if understood or as_json else 1)
+
+
+def _also(explained: Callable[[str], str]) -> Callable[[dict[str, Any]], str]:
+    """A record as people read it, with how it was read before it."""
+    from .reading import show_record
+
+    return lambda record: f"{explained(record['utterance'])}\n{show_record(record)}"
 
 
 @app.command(epilog="Example: kirby corpus my_commands.yaml")
@@ -138,11 +154,11 @@ def robot(
 
 @app.command(epilog="Example: kirby lexicon show fiducial")
 def lexicon(
-    action: Annotated[str, typer.Argument(metavar="check|show|words", help="What to do.")] = "check",
-    word: Annotated[str | None, typer.Argument(help="The word to show.")] = None,
+    action: Annotated[str, typer.Argument(metavar="check|show|words|sample", help="What to do.")] = "check",
+    word: Annotated[str | None, typer.Argument(help="The word to show, or how many sentences to sample.")] = None,
     folder: Annotated[Path | None, typer.Option("--folder", help="Another lexicon than Kirby's.")] = None,
 ) -> None:
-    """Check the lexicon, show the entries of a word, or list every word Kirby knows."""
+    """Check the lexicon, show the entries of a word, list every word Kirby knows, or sample sentences with forms."""
     from .lexicon import run_lexicon
 
     run_lexicon(action, word, folder)

@@ -1,7 +1,8 @@
-"""``kirby lexicon``: check the entries, show those of a word, list every word."""
+"""``kirby lexicon``: check the entries, show those of a word, list every word, sample sentences."""
 
 from __future__ import annotations
 
+import random
 from collections import Counter
 from pathlib import Path
 
@@ -9,14 +10,18 @@ from rich.console import Console
 from rich.syntax import Syntax
 from rich.table import Table
 
+from grammar.sampling import Sampler
 from voxml.schema import Entry
 from voxml.vocabulary import ENTRY_FOLDERS, LEXICON_FOLDER, Lexicon, read_lexicon
 
 from .errors import UsageError
 
+SAMPLES = 10
+SAMPLE_SEED = 1
+
 
 def run_lexicon(action: str, word: str | None, folder: Path | None) -> None:
-    """Do one of check, show, words.
+    """Do one of check, show, words, sample.
 
     Raises:
         UsageError: no such action, or a word is missing or unknown.
@@ -31,8 +36,20 @@ def run_lexicon(action: str, word: str | None, folder: Path | None) -> None:
             print("\n".join(lexicon.words()))
         case "show":
             _show(lexicon, word, where)
+        case "sample":
+            _sample(lexicon, word)
         case _:
-            raise UsageError(f"'{action}' is nothing to do with a lexicon: use check, show WORD or words")
+            raise UsageError(f"'{action}' is nothing to do with a lexicon: use check, show WORD, words or sample N")
+
+
+def _sample(lexicon: Lexicon, count: str | None) -> None:
+    """Sentences sampled from the grammar, with their acts and forms; the same ones every time."""
+    if count is not None and not count.isdecimal():
+        raise UsageError(f"'{count}' is no number of sentences: kirby lexicon sample 20")
+    sampler = Sampler(lexicon, random.Random(SAMPLE_SEED).choice)  # noqa: S311 - not for secrets
+    for _ in range(int(count or SAMPLES)):
+        sample = sampler.sample()
+        print(f"{sample.text}\t{sample.function.value}\t{sample.form}")
 
 
 def _check(lexicon: Lexicon) -> None:
