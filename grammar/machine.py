@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Any
 
 END = "$END"
+STATES_MAX = 20
 STEPS_MAX = 4_000
 
 Action = Callable[..., Any]
@@ -53,8 +54,10 @@ class Tables:
     reductions: tuple[dict[str, Reduction], ...]
     gotos: tuple[dict[str, int], ...]
 
-    def expected(self, state: int) -> frozenset[str]:
-        return frozenset(self.shifts[state]) | (frozenset(self.reductions[state]) - {END})
+    def expected(self, states: tuple[int, ...]) -> frozenset[str]:
+        """The terminals that one of the states accepts; of the start where there is none."""
+        accepted = (self.shifts[state].keys() | self.reductions[state].keys() for state in states or (self.start,))
+        return frozenset().union(*accepted) - {END}
 
 
 def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str], Action | None]) -> Tables:
@@ -135,7 +138,7 @@ class Trace:
     """How far the automaton came and what it expected there; why readings were refused."""
 
     furthest: int = 0
-    state: int = 0
+    states: tuple[int, ...] = ()  # by which it came there
     refusals: list[tuple[int, str]] | None = None
     steps: int = 0
 
@@ -188,8 +191,9 @@ class Machine:
             if choice < len(options) or may_end(at):
                 pending.append((node, at, choice))
             node, at, choice, options = following, at + edge.length, 0, edges(at + edge.length)
-            if edge.terminal is not None and at > trace.furthest:
-                trace.furthest, trace.state = at, node[0]
+            if edge.terminal is not None and at >= trace.furthest:
+                trace.states = (node[0],) if at > trace.furthest else (*trace.states, node[0])[:STATES_MAX]
+                trace.furthest = at
         return node, at
 
     def _shift(self, node: Node, terminal: str, value: Any, at: int, trace: Trace) -> Node | None:

@@ -90,7 +90,7 @@ class Reader:
         return entry is not None and entry.body[0].event.pred == "control"
 
     def _not_understood(self, text: str, tokens: tuple[Token, ...], trace: Trace) -> NotUnderstood:
-        expected = describe_expected(self._tables.expected(trace.state), trace)
+        expected = describe_expected(self._tables.expected(trace.states), trace)
         if trace.furthest >= len(tokens):
             return NotUnderstood((len(text), len(text)), expected)
         token = tokens[trace.furthest]

@@ -1,0 +1,45 @@
+"""Sentences sampled from the grammar come back, and damaged ones do no harm."""
+
+from __future__ import annotations
+
+import random
+
+from benchmarks import robustness, sampling
+from grammar.explain import Explainer
+from grammar.reader import Reader
+from grammar.sampling import Sampler
+from voxml.terms import parse_form
+from voxml.vocabulary import load_lexicon
+
+
+def test_sampled_sentences_read_back_to_the_form_they_were_sampled_from() -> None:
+    figures = sampling.run(1_500)
+    assert figures["same_or_ambiguous"] > 0.99
+    assert figures["same"] > 0.9 * figures["sentences"]
+
+
+def test_sampled_forms_print_and_read_back() -> None:
+    sampler = Sampler(load_lexicon(), random.Random(4).choice)
+    for _ in range(500):
+        form = sampler.sample().form
+        assert str(parse_form(str(form))) == str(form)
+
+
+def test_the_same_seed_samples_the_same_sentences() -> None:
+    lexicon = load_lexicon()
+    one, other = (Sampler(lexicon, random.Random(9).choice) for _ in range(2))
+    assert [one.sample() for _ in range(20)] == [other.sample() for _ in range(20)]
+
+
+def test_damaged_sentences_raise_nothing_and_move_nothing_unless_understood() -> None:
+    figures = robustness.run(1_500, seed=2)
+    assert (figures["raised"], figures["moved_though_not_understood"]) == (0, 0)
+
+
+def test_an_explanation_names_the_words_that_were_read_and_the_rules() -> None:
+    lexicon = load_lexicon()
+    explained = Explainer(Reader(lexicon), lexicon).explain("uh turn left, no, right and take a picture")
+    assert [token.text for token in explained.tokens] == ["turn", "right", "and", "take", "a", "picture"]
+    leaves = [[(leaf.label, leaf.words) for leaf in tree.leaves()] for tree in explained.trees]
+    assert leaves[0] == [("VERB", "turn"), ("SIDE", "right")]
+    assert leaves[1][-1] == ("EVENT", "picture")
