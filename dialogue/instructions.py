@@ -17,6 +17,7 @@ from .planning import plan
 from .plans import Plan, Refusal, Refused
 from .session import HISTORY_MAX, Agenda, Past, Question
 from .table import Activity, Trigger
+from .teaching import teach, teaches
 from .turn import Turn
 from .wording import command_words, listed, name_entities, refused, unresolved
 
@@ -48,6 +49,9 @@ def obey(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
         turn.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {repaired[0]}?", sure))
         return
     fused = _fused(turn, acts, time_s)
+    if len(fused) == 1 and isinstance(fused[0].form, Term) and teaches(fused[0].form):
+        teach(turn, fused[0].form)
+        return
     carry_out(turn, tuple(replace(act, form=leaned(act.form, turn.session)) for act in fused))
 
 
@@ -70,6 +74,13 @@ def ask_kirby(turn: Turn, act: DialogueAct, time_s: float) -> None:
     """Answer a question of the person's. Kirby's own stays open meanwhile."""
     (asked,) = _fused(turn, (act,), time_s)
     reply(turn, replace(asked, form=leaned(asked.form, turn.session)))
+
+
+def tell_kirby(turn: Turn, act: DialogueAct, time_s: float) -> None:
+    """Remember what is so from now on."""
+    (told,) = _fused(turn, (act,), time_s)
+    assert isinstance(told.form, Term)
+    teach(turn, told.form)
 
 
 def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from grammar.acts import DialogueAct, Function, NotUnderstood
-from grammar.forms import Term
+from grammar.forms import Name, Term
 from grounding import StandsFor
 from voxml.vocabulary import Lexicon
 
@@ -31,17 +32,14 @@ from .events import (
     WorldUpdate,
 )
 from .fusion import REMEMBERED
-from .instructions import STOP, ask_kirby, instruct, obey, stops
+from .instructions import STOP, ask_kirby, instruct, obey, stops, tell_kirby
 from .news import hear_robot
+from .reminders import remind
 from .session import Session
+from .teaching import quoted, teaches
 from .turn import Parser, Turn
 from .wording import not_understood
 
-_COURTESIES = {
-    Function.GREET: "Hello.",
-    Function.THANK: "You're welcome.",
-    Function.BYE: "Goodbye.",
-}
 _CAMERA = {
     GestureKind.PUSH_LEFT: CameraMove.SWITCH_LEFT,
     GestureKind.PUSH_RIGHT: CameraMove.SWITCH_RIGHT,
@@ -78,7 +76,9 @@ class DialogueManager:
             case WorldUpdate():
                 _perceive(turn, event)
             case Tick():
-                pass  # time is looked at below, whatever it comes with
+                remind(turn, event.time_s)
+        if isinstance(event, Utterance | Pointing | Gesture):
+            turn.update(waiting=None)
         go_on(turn, event.time_s)
         self.session = turn.session
         return tuple(turn.outputs)
@@ -86,7 +86,7 @@ class DialogueManager:
 
 # ------------------------------------------------------------------ words
 def _hear(turn: Turn, event: Utterance) -> None:
-    acts = turn.parse(event.text)
+    acts = _read(turn, event.text)
     if isinstance(acts, NotUnderstood):
         turn.say(not_understood(event.text, acts), Tone.REFUSAL)
         if turn.session.question is not None:
@@ -99,6 +99,15 @@ def _hear(turn: Turn, event: Utterance) -> None:
     elif event.confidence < _CONFIDENT:
         acts = tuple(_unsure(act, event.text) for act in acts)
     _do_acts(turn, acts, event.time_s)
+
+
+def _read(turn: Turn, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
+    """What was said; where that is not understood, with the names that were taught read as names."""
+    acts = turn.parse(text)
+    if isinstance(acts, NotUnderstood) and (named := quoted(text, turn)) != text:
+        again = turn.parse(named)
+        return acts if isinstance(again, NotUnderstood) else again
+    return acts
 
 
 def _unsure(act: DialogueAct, text: str) -> DialogueAct:
@@ -128,27 +137,39 @@ def _do_acts(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
 
 def _respond(turn: Turn, act: DialogueAct, time_s: float) -> None:
     """An act that orders nothing by itself."""
-    match act.function:
-        case Function.CONFIRM:
-            yes(turn, time_s)
-        case Function.DENY:
-            no(turn, time_s)
-        case Function.GREET | Function.THANK | Function.BYE:
-            turn.say(_COURTESIES[act.function])
-        case Function.ACKNOWLEDGE:
-            pass
-        case Function.QUESTION:
-            ask_kirby(turn, act, time_s)
-        case _ if answer(turn, act.form, time_s):
-            pass
-        case Function.CORRECT:
-            said_instead(turn, act, time_s)
-        case _ if turn.session.question is not None:
-            ask_again(turn)
-        case Function.FRAGMENT:
-            said_fragment(turn, act, time_s)
-        case _:
-            turn.say("I understand the words, but not what you want me to do.", Tone.REFUSAL)
+    respond = _RESPONSES.get(act.function)
+    if respond is not None:
+        respond(turn, act, time_s)
+    elif answer(turn, act.form, time_s):
+        pass
+    elif act.function is Function.CORRECT:
+        said_instead(turn, act, time_s)
+    elif turn.session.question is not None:
+        ask_again(turn)
+    elif act.function is Function.FRAGMENT:
+        said_fragment(turn, act, time_s)
+    else:
+        turn.say("I understand the words, but not what you want me to do.", Tone.REFUSAL)
+
+
+def _inform(turn: Turn, act: DialogueAct, time_s: float) -> None:
+    if teaches(act.form):
+        tell_kirby(turn, act, time_s)
+    else:
+        turn.say("Okay.")
+
+
+_RESPONSES: Mapping[Function, Callable[[Turn, DialogueAct, float], None]] = {
+    Function.CONFIRM: lambda turn, act, time_s: yes(turn, time_s),
+    Function.DENY: lambda turn, act, time_s: no(turn, time_s),
+    Function.GREET: lambda turn, act, time_s: turn.say("Hello."),
+    Function.THANK: lambda turn, act, time_s: turn.say("You're welcome."),
+    Function.BYE: lambda turn, act, time_s: turn.say("Goodbye."),
+    Function.ACKNOWLEDGE: lambda turn, act, time_s: None,
+    Function.QUESTION: ask_kirby,
+    Function.INFORM: _inform,
+}
+"""What is answered in the same way whatever was said before."""
 
 
 # ------------------------------------------------------------------ hands
@@ -174,6 +195,8 @@ def _see_gesture(turn: Turn, event: Gesture) -> None:
             obey(turn, (instruct(Term("come_here")),), event.time_s)
         case GestureKind() as kind if kind in _CAMERA:
             turn.outputs.append(MoveCamera(_CAMERA[kind]))
+        case str() as name if any(routine.name == name.lower() for routine in turn.session.routines):
+            obey(turn, (instruct(Term("perform", (Name(name),))),), event.time_s)
         case _:
             turn.say("I don't know that gesture.", Tone.REFUSAL)
 

@@ -47,6 +47,8 @@ _ACTIVITY = {
 _UNSAID = frozenset({Code.ESTIMATE_ROTATION, Code.SUCCESS_ESTIMATE_ROTATION, Code.VERIFY_ROTATION})
 _FAILURES = frozenset({Code.INVALID, Code.UNREACHABLE, Code.STRAYED})
 
+_BY_ORDER = frozenset({Code.PAUSED, Code.CANCELLED_GOAL, Code.CANCELLED_ALL, Code.STOP_PATROL})
+
 
 def hear_robot(turn: Turn, event: RobotFeedback) -> None:
     """Update what the robot is at, and tell."""
@@ -56,6 +58,10 @@ def hear_robot(turn: Turn, event: RobotFeedback) -> None:
         turn.update(ideal=None)
     if task is not None and (feedback.code in ENDINGS or not task.moves):
         turn.update(tasks=tuple(other for other in turn.session.tasks if other != task))
+    if feedback.code in _FAILURES:
+        turn.update(reason=feedback.message)
+    elif feedback.code in _BY_ORDER:
+        turn.update(reason="")
     _tell(turn, event, task)
     _follow(turn, event)
 

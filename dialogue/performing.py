@@ -51,6 +51,8 @@ def perform(turn: Turn, event: Term) -> None:
     match act.pred, args:
         case "say", [Name(text=text), *_]:
             turn.say(text)
+        case "perform", [Name(text=text)]:
+            turn.say(f"I don't know {text}.", Tone.REFUSAL)
         case "greet", _:
             turn.say("Hello.")
         case "pace", _:

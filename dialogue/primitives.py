@@ -125,11 +125,15 @@ class Draft:
         goals = self._goals(form)
         entities = tuple(goal for goal in goals if isinstance(goal, Entity))
         for goal in tour(self.world.robot.point, entities) if len(goals) > 1 else goals:
-            place = goal if isinstance(goal, Point) else approach(goal, self.world.walls).point
+            place = goal if isinstance(goal, Point) else self._stand(goal)
             _check_limit(form, max(abs(place.x_m), abs(place.y_m)), COORDINATE_MAX_M)
             self.add(GoTo(round(place.x_m, _PLACE_DECIMALS), round(place.y_m, _PLACE_DECIMALS)))
-            if isinstance(goal, Entity):
+            if isinstance(goal, Entity) and any(goal.size_m):
                 self._face(goal)
+
+    def _stand(self, goal: Entity) -> Point:
+        """Before a thing; on a place, which has no size."""
+        return approach(goal, self.world.walls).point if any(goal.size_m) else goal.point
 
     def _goals(self, form: Term) -> tuple[Point | Entity, ...]:
         """The place to be at, or the things to stand before."""

@@ -67,11 +67,19 @@ class Past:
 
 @dataclass(frozen=True, slots=True)
 class Routine:
-    """Something to do that was given a name, and perhaps a gesture."""
+    """Something to do that was given a name; a learned gesture of that name does it too."""
 
     name: str
     form: Form
-    gesture: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Waiting:
+    """A question that nobody has answered since ``since_s``, and how often Kirby has come back to it."""
+
+    text: str
+    since_s: float
+    reminded: int = 0
 
 
 HISTORY_MAX = 8
@@ -102,6 +110,7 @@ class Session:
     history: tuple[Past, ...] = ()
     routines: tuple[Routine, ...] = ()
     reason: str = ""
+    waiting: Waiting | None = None
 
     @property
     def moving(self) -> bool:

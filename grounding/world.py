@@ -71,6 +71,11 @@ class World:
         )
         return replace(self, entities=Entities(items), catalogue=(*others, meaning))
 
+    def with_place(self, place: Entity) -> World:
+        """A place was given a name; it is one of the things that have no fiducial."""
+        others = tuple(entity for entity in self.entities.items if entity.id != place.id)
+        return replace(self, entities=Entities((*others, place)))
+
     def speaking_of(self, ids: tuple[str, ...]) -> World:
         """The same world with these things in focus, before those that were."""
         before = tuple(known for known in self.focus if known not in ids)
