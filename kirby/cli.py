@@ -44,6 +44,10 @@ StateOption = Annotated[
 ]
 SeedOption = Annotated[int | None, typer.Option("--seed", help="Seed of the simulated noise (the world's).")]
 NamespaceOption = Annotated[str, typer.Option("--namespace", help="Prefix of every key, one for each robot.")]
+LogOption = Annotated[
+    Path | None,
+    typer.Option("--log", metavar="FILE", help="Write every event and what came of it, for kirby replay."),
+]
 ViewOption = Annotated[bool, typer.Option("--view", help="Show the world in a browser as well.")]
 HostOption = Annotated[
     str, typer.Option("--host", help="Where the view listens; beyond this machine it asks for a token.")
@@ -67,13 +71,22 @@ def repl(
     view: ViewOption = False,
     host: HostOption = LOOPBACK,
     port: PortOption = DEFAULT_PORT,
+    log: LogOption = None,
 ) -> None:
     """Talk to Kirby. Lines from a pipe are said in turn, each when the robot is idle or asks something."""
     from .session import Options, talk
 
     shown = ViewOptions(host, port) if view else None
-    options = Options(world, redis, speed, state, seed, namespace, shown)
+    options = Options(world, redis, speed, state, seed, namespace, shown, log)
     raise typer.Exit(0 if talk(options) else 1)
+
+
+@app.command(epilog="Example: kirby replay talk.jsonl")
+def replay(log: Annotated[Path, typer.Argument(help="A log that 'kirby repl --log' wrote.")]) -> None:
+    """Go through a logged talk again, without a robot, and show that the same comes of it."""
+    from .replay import replay as replay_log
+
+    raise typer.Exit(0 if replay_log(log) else 1)
 
 
 @app.command(epilog="Example: kirby view --world figure3")

@@ -29,6 +29,7 @@ from .agent import Agent
 from .conversation import Conversation, Line, Speaker
 from .errors import KirbyError, UsageError
 from .link import RobotLink
+from .replay import logged
 from .transcript import Transcript
 from .view_options import ViewOptions
 from .worlds import DEFAULT_WORLD, find_world, world_file
@@ -47,6 +48,7 @@ class Options:
     seed: int | None = None
     namespace: str = ""
     view: ViewOptions | None = None
+    log: Path | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,6 +146,7 @@ def _conversation(
         conversation = Conversation(
             Agent(world=scene, lexicon=lexicon, name=f"{secrets.token_hex(4)}-"), link.send, show
         )
+        stack.enter_context(logged(conversation, options.log))
         link.start(conversation.deliver)
         robot = None
         if options.redis is None or (options.world is not None and not link.alive()):
