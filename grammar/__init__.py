@@ -25,22 +25,23 @@ __all__ = [
 ]
 
 
-def parse(text: str, lexicon: Lexicon | None = None) -> tuple[DialogueAct, ...] | NotUnderstood:
+def parse(text: str, lexicon: Lexicon | None = None, language: str = "en") -> tuple[DialogueAct, ...] | NotUnderstood:
     """The acts of an utterance, or where it went wrong.
 
     What the grammar cannot read but may mean stop, stops; where words were repaired the acts say so, to be confirmed.
-    The reader for a lexicon is built at its first use (about 0.2 s) and kept.
+    ``language`` names the grammar; the lexicon must be in its words. The reader for a lexicon is built at its first use
+    (about 0.2 s) and kept.
     """
     words = lexicon or load_lexicon()
-    reading = _reader(words).read(text)
-    return _mender(words).mend(text, reading) if isinstance(reading, NotUnderstood) else reading
+    reading = _reader(words, language).read(text)
+    return _mender(words, language).mend(text, reading) if isinstance(reading, NotUnderstood) else reading
 
 
 @lru_cache(maxsize=8)
-def _reader(lexicon: Lexicon) -> Reader:
-    return Reader(lexicon)
+def _reader(lexicon: Lexicon, language: str) -> Reader:
+    return Reader(lexicon, language)
 
 
 @lru_cache(maxsize=8)
-def _mender(lexicon: Lexicon) -> Mender:
-    return Mender(lexicon, _reader(lexicon).read)
+def _mender(lexicon: Lexicon, language: str) -> Mender:
+    return Mender(lexicon, _reader(lexicon, language).read)

@@ -301,6 +301,7 @@ _PLAIN: dict[str, Action] = {
     "nominal": phrases.nominal,
     "nominal_post": lambda noun, posts: phrases.nominal(noun, (), posts),
     "nominal_pre": lambda pres, noun: phrases.nominal(noun, pres),
+    "nominal_around": lambda pres, noun, others, posts=(): phrases.nominal(noun, (*pres, *others), posts),
     "nominal_pre_post": lambda pres, noun, posts: phrases.nominal(noun, pres, posts),
     "headless": phrases.headless,
     "headless_post": phrases.headless,

@@ -37,6 +37,7 @@ class NumberReader:
             roles.setdefault(role, set()).add(word)
         self._articles = frozenset(roles.pop("article", ()))
         self._and = frozenset(roles.pop("and", ()))
+        self._tens_and = frozenset(closed.table("tens_and"))
         self._point = frozenset(roles.pop("point", ()))
         self._minus = frozenset(roles.pop("minus", ()))
         self._of = frozenset(roles.pop("of", ()))
@@ -282,9 +283,10 @@ class NumberReader:
         value = self._units.get(tokens[at]) if at < len(tokens) else None
         if value is None:
             return None
-        one = self._units.get(tokens[at + 1]) if at + 1 < len(tokens) else None
+        after = at + 2 if at + 1 < len(tokens) and tokens[at + 1] in self._tens_and else at + 1
+        one = self._units.get(tokens[after]) if after < len(tokens) else None
         if value >= 20 and one is not None and 1 <= one <= 9:
-            return value + one, at + 2
+            return value + one, after + 1
         return value, at + 1
 
 
