@@ -16,6 +16,39 @@ DOUBT_M = 0.05
 DOUBT_RAD = math.radians(3.0)
 
 
+# Over so much way the heading's drift is averaged, and as if so much way without drift had gone before.
+DRIFT_AVERAGED_M = 30.0
+DRIFT_UNPROVEN_M = 3.0
+
+
+class HeadingDrift:
+    """How far odometry's heading runs off with each metre: wheels are never quite of the same size.
+
+    It is learnt from what the map had to correct, and taken off what odometry says next; it is as much as 0.3 degrees a
+    metre for radii that differ by one part in seven hundred.
+    """
+
+    def __init__(self) -> None:
+        self._way_m = DRIFT_UNPROVEN_M
+        self._turned_rad = 0.0
+
+    def corrected(self, moved: Pose) -> Pose:
+        """What the robot has really moved by when odometry says ``moved``."""
+        return moved.turned(self._rate * moved.x_m)
+
+    def learn(self, moved: Pose, correction_rad: float) -> None:
+        """Take in that after ``moved`` by odometry the heading had to be turned by ``correction_rad`` still."""
+        drifted_rad = (self._rate * moved.x_m + correction_rad) * math.copysign(1.0, moved.x_m)
+        kept = math.exp(-abs(moved.x_m) / DRIFT_AVERAGED_M)
+        self._turned_rad = kept * self._turned_rad + drifted_rad
+        self._way_m = kept * self._way_m + abs(moved.x_m)
+
+    @property
+    def _rate(self) -> float:
+        """Radians a metre."""
+        return self._turned_rad / self._way_m
+
+
 class Localiser:
     """Call :meth:`move` with every odometry reading and :meth:`see` with every scan. Poses are in the map frame."""
 
@@ -25,6 +58,7 @@ class Localiser:
         self._track: deque[Odometry] = deque([odometry], maxlen=HISTORY)
         self._known = start or odometry.pose
         self._known_odometry = odometry.pose
+        self._drift = HeadingDrift()
 
     @property
     def pose(self) -> Pose:
@@ -44,13 +78,14 @@ class Localiser:
         then = self._odometry_at(scan.time_s)
         predicted = self._place(then)
         corrected = self._mapper.correct(predicted, scan)
+        self._drift.learn(then.relative_to(self._known_odometry), wrap_angle(corrected.yaw_rad - predicted.yaw_rad))
         self._known, self._known_odometry = corrected, then
         shift_m = predicted.point.distance_to(corrected.point)
         if shift_m <= DOUBT_M and abs(wrap_angle(corrected.yaw_rad - predicted.yaw_rad)) <= DOUBT_RAD:
             self._mapper.update(corrected, scan)
 
     def _place(self, odometry: Pose) -> Pose:
-        return self._known.compose(odometry.relative_to(self._known_odometry))
+        return self._known.compose(self._drift.corrected(odometry.relative_to(self._known_odometry)))
 
     def _odometry_at(self, time_s: float) -> Pose:
         later = self._track[-1]

@@ -30,8 +30,8 @@ MAX_RMS_M = 0.05
 MAX_SHIFT_M = 0.15
 MAX_TURN_RAD = math.radians(8.0)
 # How far odometry may be off from one scan to the next, and a point from its wall; one standard deviation each.
-PREDICTED_M = 0.01
-PREDICTED_RAD = math.radians(0.5)
+PREDICTED_M = 0.003
+PREDICTED_RAD = math.radians(0.12)
 POINT_M = 0.02
 INDEPENDENT_POINTS = 60.0  # more points than this say no more: their walls' errors are common to them
 # The squared sines of the walls' angles to a direction, summed over the points matched: below this, it is not seen.

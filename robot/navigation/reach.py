@@ -182,7 +182,7 @@ class Reaching:
 
     def _stuck(self, view: View) -> Drive:
         self._anchor = None
-        if view.pose.point.distance_to(self.goal.place) < NEAR_ENOUGH_M:
+        if self._follower is not None and view.pose.point.distance_to(self._follower.goal) < NEAR_ENOUGH_M:
             # What the laser sees leaves no room for the last step, finer than the grid's cells can tell.
             self._moved_to = view.pose.point
             return self._arrived(view)

@@ -8,6 +8,7 @@ from kinematic_body import KinematicBody
 
 from robot.body import Scan
 from robot.geometry import Pose
+from robot.localisation import Localiser
 from robot.mapping import Mapper
 from robot.navigation import Drive, Goal, Navigator, State
 
@@ -21,11 +22,14 @@ class Pilot:
         self.body = body
         self.mapper = Mapper()
         self.navigator = Navigator(body.limits)
-        self.pose = body.pose
         self.driven_m = 0.0
-        self._odometry = body.odometry().pose
+        self._localiser = Localiser(self.mapper, body.odometry(), body.pose)
         self._scan: Scan | None = None
         self._sense()
+
+    @property
+    def pose(self) -> Pose:
+        return self._localiser.pose
 
     def pursue(self, goal: Goal, limit_s: float = 600.0, watch: Callable[[Drive], bool] | None = None) -> Drive:
         """Do ``goal`` to its end, or until ``watch`` says to stop; the last drive. The robot comes to rest."""
@@ -61,14 +65,11 @@ class Pilot:
         self._sense()
 
     def _sense(self) -> None:
-        odometry = self.body.odometry().pose
-        self.pose = self.pose.compose(odometry.relative_to(self._odometry))
-        self._odometry = odometry
+        self._localiser.move(self.body.odometry())
         scan = self.body.scan()
         if scan is not None:
             self._scan = scan
-            self.pose = self.mapper.correct(self.pose, scan)
-            self.mapper.update(self.pose, scan)
+            self._localiser.see(scan)
 
 
 def offset(pose: Pose, truth: Pose) -> float:
