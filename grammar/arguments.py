@@ -161,6 +161,9 @@ class ArgumentFitter:
         return None
 
     def _relation(self, slot: Argument, kind: Kind, form: Term) -> Form | None:
+        """A landmark without the relation that marks it; a place with its relation, of those that the place names."""
+        if slot.markers and "place" in slot.types:
+            return form if form.pred in slot.markers else None
         if form.pred in slot.markers and len(form.args) == 1 and self._marked(slot, form.args[0]):
             return form.args[0]
         wanted = {Kind.PATH: {"path"}, Kind.LOCATION: {"place", "path"}}.get(kind, set())
