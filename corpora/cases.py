@@ -37,7 +37,7 @@ import yaml
 
 from voxml.errors import KirbyError
 
-EVENTS = frozenset({"say", "point", "gesture", "feedback", "see", "move"})
+EVENTS = frozenset({"say", "point", "gesture", "feedback", "see", "move", "tick"})
 _TURN = EVENTS | {"after", "commands", "reply", "state"}
 _CASE = frozenset({"say", "world", "at", "seen", "act", "form", "status", "commands", "reply"})
 _DIALOGUE = frozenset({"name", "world", "at", "seen", "turns"})

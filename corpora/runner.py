@@ -21,6 +21,7 @@ from dialogue.events import (
     Pointing,
     RobotFeedback,
     Say,
+    Tick,
     Utterance,
     WorldUpdate,
 )
@@ -228,6 +229,10 @@ def _see(value: Any, time_s: float, scene: Scene | None, at: str) -> Event:
     return WorldUpdate(time_s, fiducials=Fiducials(tuple(fiducials)))
 
 
+def _tick(value: Any, time_s: float, scene: Scene | None, at: str) -> Event:
+    return Tick(time_s)
+
+
 def _move(value: Any, time_s: float, scene: Scene | None, at: str) -> Event:
     x_m, y_m, yaw_deg = numbers(value, 3, f"{at}: move")
     odom = Odom(0, 0, (x_m, y_m, 0.0), (0.0, 0.0, math.radians(yaw_deg)), 0.0, 0.0, time_s)
@@ -241,6 +246,7 @@ _EVENTS: Mapping[str, Callable[[Any, float, Scene | None, str], Event]] = {
     "feedback": _feedback,
     "see": _see,
     "move": _move,
+    "tick": _tick,
 }
 
 

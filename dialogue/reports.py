@@ -343,7 +343,7 @@ def _done(asked: _Asked) -> Report:
 
 
 def _why(asked: _Asked) -> Report:
-    return Report(asked.session.reason.rstrip(".") or "Because you told me to")
+    return Report(_capital(asked.session.reason.rstrip(".")) or "Because you told me to")
 
 
 # ------------------------------------------------------------------ the table

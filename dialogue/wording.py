@@ -142,7 +142,8 @@ def _metres(distance_m: float) -> str:
 # ------------------------------------------------------------------ places
 def metres(distance_m: float) -> str:
     """A measured distance, to the hand's breadth that a map is good for: ``2.3 meters``, ``0.24 meters``."""
-    return _metres(round(distance_m, 1 if distance_m >= 1 else 2))
+    rough_m = round(distance_m, 1)
+    return _metres(rough_m if rough_m >= 1 else round(distance_m, 2))
 
 
 def place_words(place: Point) -> str:
