@@ -66,10 +66,7 @@ class NumberReader:
     # ------------------------------------------------------------ quantities
     def amount(self, tokens: Sequence[str], at: int) -> tuple[Amount, int] | None:
         """A number with its unit: "five feet", "another half a meter", "ten more degrees", "3 ft 2 in"."""
-        at, more = self._skip_more(tokens, self._skip_approximate(tokens, at), False)
-        at = self._skip_approximate(tokens, at)
-        if more:
-            at, more = self._skip_more(tokens, at, more)
+        at, more = self._past_lead(tokens, at)
         found = self._whole_unit(tokens, at) or self._amount_number(tokens, at)
         if found is None:
             return None
@@ -87,14 +84,21 @@ class NumberReader:
         at, more = self._skip_more(tokens, at, more, only_plain=True)
         return Amount(Quantity(round(total, 9), quantity.unit), more), at
 
+    def _past_lead(self, tokens: Sequence[str], at: int) -> tuple[int, bool]:
+        """Past "about another" and the like, but not into "a full turn", which is the name of a unit."""
+        if self._whole_unit(tokens, at) is not None:
+            return at, False
+        at, more = self._skip_more(tokens, self._skip_approximate(tokens, at), False)
+        at = self._skip_approximate(tokens, at)
+        return self._skip_more(tokens, at, more) if more else (at, more)
+
     def _whole_unit(self, tokens: Sequence[str], at: int) -> Read | None:
-        """One of a unit whose name begins like a number: "(a) quarter turn"."""
+        """One of a unit whose name begins like a number or what leads to one: "(a) quarter turn", "a full turn"."""
         start = at + 1 if at < len(tokens) and tokens[at] in self._articles else at
-        return (
-            (1.0, start)
-            if start < len(tokens) and tokens[start] in self._fractions and self._unit(tokens, start)
-            else None
-        )
+        unit = self._unit(tokens, start)
+        if unit is None or not (tokens[start] in self._fractions or (start > at and unit[1] > start + 1)):
+            return None
+        return 1.0, start
 
     def more(self, tokens: Sequence[str], at: int) -> Read | None:
         """A number that adds, without its unit: "ten more", "another ten"."""
