@@ -10,6 +10,7 @@ from voxml.vocabulary import Lexicon
 
 from .acts import DialogueAct, Function, NotUnderstood
 from .disfluency import Fluency
+from .ellipsis import Ellipsis
 from .expectations import describe_expected
 from .language import language_grammar
 from .lattice import DERIVED_TERMINALS, SEPARATORS, Lattice, WordReader
@@ -48,6 +49,7 @@ class Reader:
         self._words = WordReader(lexicon, numbers)
         self._tokenizer = Tokenizer(lexicon.closed)
         self._fluency = Fluency(lexicon, numbers)
+        self._ellipsis = Ellipsis(lexicon)
 
     def read(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
         """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
@@ -57,7 +59,7 @@ class Reader:
         attempt = self._attempt(tokens)
         clauses = attempt.clauses(0)
         if clauses:
-            return _acts(tokens, clauses, corrects, self._is_control)
+            return _acts(tokens, self._completed(clauses), corrects, self._is_control)
         return self._not_understood(text, tokens, attempt.trace)
 
     def tokens(self, text: str) -> tuple[Token, ...]:
@@ -80,6 +82,16 @@ class Reader:
         for reading, end in self._machine.readings(0, lattice.edges, lattice.may_end, Trace()):
             if end == len(tokens):
                 yield reading
+
+    def _completed(self, clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
+        """Fragments behind an instruction are instructions of the same kind, where they fit it."""
+        made: list[Clause] = []
+        for clause in clauses:
+            form = None
+            if made and made[-1].function is Function.INSTRUCT and clause.function is Function.FRAGMENT:
+                form = self._ellipsis.completed(made[-1].form, clause.form)
+            made.append(clause if form is None else replace(clause, function=Function.INSTRUCT, form=form))
+        return tuple(made)
 
     def _attempt(self, tokens: tuple[Token, ...]) -> _Attempt:
         return _Attempt(tokens, self.lattice(tokens), self._machine)
