@@ -117,10 +117,11 @@ def say(page: Any, text: str) -> None:
     box.press("Enter")
 
 
-def drive(page: Any, text: str) -> None:
-    """Say it, and watch the robot set out and arrive."""
+def drive(page: Any, text: str, arrived: str = "successfully navigated") -> None:
+    """Say it, and wait until Kirby says that one more place was reached, and rests."""
+    before = conversation_of(page).count(arrived)
     say(page, text)
-    until(lambda: state(page) == "driving")
+    until(lambda: conversation_of(page).count(arrived) > before, DRIVE_S)
     until(lambda: state(page) == "at rest", DRIVE_S)
 
 
@@ -149,7 +150,7 @@ def test_seeing_pointing_talking_and_stopping(bus: RedisServer, client: Any, tmp
         assert pose(client).point.distance_to(blue.point) < 0.6
 
         say(page, "patrol")
-        until(lambda: state(page) == "patrolling")
+        until(lambda: state(page) == "patrolling", DRIVE_S)
         page.locator("#kirby-stop").click()
         until(lambda: state(page) == "paused")
         stopped = pose(client)
@@ -168,31 +169,31 @@ def test_seeing_pointing_talking_and_stopping(bus: RedisServer, client: Any, tmp
 def test_a_lost_robot_and_a_page_loaded_again(bus: RedisServer, client: Any, tmp_path: Path, visit: Visit) -> None:
     with viewed_after_robot(bus, client, tmp_path) as (process, view):
         page = visit(view.world.url)
-        say(page, "go forward three meters")
-        until(lambda: state(page) == "driving")
+        say(page, "patrol")
+        until(lambda: state(page) == "patrolling", DRIVE_S)
         page.reload()
-        until(lambda: page.locator("#kirby-state").count() and state(page) == "driving", RECOVERY_S)
-        assert "go forward three meters" in conversation_of(page)
+        until(lambda: page.locator("#kirby-state").count() and state(page) == "patrolling", RECOVERY_S)
+        assert "patrolling" in conversation_of(page)
 
         process.kill()
-        page.locator("#kirby-lost").wait_for(timeout=15_000)
+        page.locator("#kirby-lost").wait_for(timeout=RECOVERY_S * 1000)
         assert page.locator("#kirby-robot").get_attribute("data-state") == "gone"
         with robot(bus, client, tmp_path):
             page.locator("#kirby-lost").wait_for(state="detached", timeout=RECOVERY_S * 1000)
             until(lambda: "paused" in state(page), RECOVERY_S)
-            drive(page, "continue")
-            assert pose(client).x_m > 2.5
+            say(page, "continue")
+            until(lambda: state(page) in ("driving", "patrolling"), DRIVE_S)
 
 
 def test_redis_killed_and_started_again(bus: RedisServer, client: Any, tmp_path: Path, visit: Visit) -> None:
     with robot(bus, client, tmp_path), viewed(bus) as view:
         page = visit(view.world.url)
         say(page, "go forward two meters")
-        until(lambda: state(page) == "driving")
+        until(lambda: "looking for path" in conversation_of(page))
         bus.kill()
         until(lambda: "Redis does not answer" in conversation_of(page))
         page.locator("#kirby-lost").wait_for(state="detached", timeout=RECOVERY_S * 1000)
-        until(lambda: state(page) == "at rest", DRIVE_S)
+        until(lambda: state(page) == "at rest" and "successfully navigated" in conversation_of(page), DRIVE_S)
         assert pose(client).x_m > 1.8
 
 
@@ -202,7 +203,7 @@ def test_any_command_of_several_can_be_cancelled(bus: RedisServer, client: Any, 
         say(page, "go forward two meters, then turn left, then go forward one meter")
         page.get_by_role("button", name="turn left 90 degrees").click()
         until(lambda: "cancelled 'turn left 90 degrees'" in conversation_of(page))
-        until(lambda: state(page) == "at rest", DRIVE_S)
+        until(lambda: conversation_of(page).count("successfully navigated") == 2, DRIVE_S)
         assert pose(client).point.distance_to(Point(3.0, 0.0)) < 0.2
 
 
