@@ -38,6 +38,7 @@ class Fluency:
         self._weak = _phrases(lexicon, "edit_weak")
         self._spoken_units = tuple(sorted(unit for unit in closed.table("unit") if len(unit) > _CLIPPED_MIN))
         self._leads = _phrases(lexicon, "LEAD")
+        self._joining = frozenset(closed.table("AND")) | frozenset(closed.table("THEN"))
 
         self._fluent = self._never_disfluent()
 
@@ -272,8 +273,8 @@ class Fluency:
         return kept
 
     def _may_repeat(self, run: Sequence[str]) -> bool:
-        """Not "no no", which is more than "no", nor a lone number or mark."""
-        if run[0] in MARKS or run == ["no"]:
+        """Not "no no", which is more than "no", a lone number or mark, nor what is joined to its like by "and"."""
+        if run[0] in MARKS or run == ["no"] or not self._joining.isdisjoint(run):
             return False
         return len(run) > 1 or not self._is_number(run[0])
 

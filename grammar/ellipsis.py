@@ -1,4 +1,4 @@
-"""What is left out of a clause because the one before has said it: "turn left, then right", "face north, then south"."""
+"""What a clause leaves out because the one before has said it: "turn left, then right", "face north, then south"."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from voxml.vocabulary import Lexicon
 _CLASSES = ("SIDE", "AXIS", "HEADING")
 
 
-class Ellipsis:
+class Completer:
     """Completes fragments with the verb before them, by the words of one lexicon."""
 
     def __init__(self, lexicon: Lexicon) -> None:

@@ -16,7 +16,7 @@ DERIVED_TERMINALS = ("QTY", "QTY_MORE", "NUMBER", "CARDINAL", "PREDICATIVE")
 SEPARATORS = frozenset({"AND", "THEN", "BEFORE_THAT", "BUT"})
 CLAUSE_OPENERS = frozenset({"VERB", "LEAD", "LEAD_ING", "LEAD_TO", "LEAD_PAST", "LIGHT", "IF", "UNTIL", "FORBID"})
 BOUNDARIES = SEPARATORS | CLAUSE_OPENERS
-_FIRST_CHOICE = frozenset({"STOPPING", "LIGHT", "WAY"})
+_FIRST_CHOICE = frozenset({"STOPPING", "LIGHT", "WAY", "BEFORE"})
 _SECOND_CHOICE = frozenset({"PATH", "NUMBER", "CARDINAL"})
 CARDINAL_MAX = 100
 HOURS_MAX = 12
@@ -77,6 +77,8 @@ class WordReader:
         self._numbers = numbers
         self._skips = [word.words for word in lexicon.closed.words_of("skip")]
         self._copulas = frozenset(lexicon.closed.table("BE"))
+        self._enumerators = frozenset(lexicon.closed.table("enumerator"))
+        self._verbs = frozenset(word for word in lexicon.words() if _is_verb(lexicon, word))
         self._determiners = frozenset(
             word for word in lexicon.words() if any(sense.category == "DETERMINER" for sense in lexicon.lookup(word))
         )
@@ -125,6 +127,8 @@ class WordReader:
         if before in MARKS:
             if word in self._refusals:
                 return tuple(edge for edge in found if edge.terminal != "DETERMINER")
+            if word in self._enumerators and at + 1 < len(texts) and texts[at + 1] in self._verbs:
+                return (Edge(None, None, 1),)
             if word in self._names and at + 1 < len(texts):
                 return (Edge(None, None, 1), *found)
             return found
@@ -157,6 +161,12 @@ class WordReader:
         if number is not None and number[0] == int(number[0]) and 1 <= number[0] <= CARDINAL_MAX:
             found.append(Edge("CARDINAL", Quantity(number[0]), number[1] - at))
         return found
+
+
+def _is_verb(lexicon: Lexicon, word: str) -> bool:
+    """Whether a word is a verb and no name of a thing."""
+    categories = {sense.category for sense in lexicon.lookup(word)}
+    return "VERB" in categories and "NOUN" not in categories
 
 
 def _ends(texts: Sequence[str], at: int) -> bool:

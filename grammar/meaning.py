@@ -102,6 +102,10 @@ class Meaning:
     def verb_led(self, lead: Form, readings: Any, args: Args = ()) -> Form:
         return self.verb(readings, args)
 
+    def verb_perfect(self, you: Form, have: Form, readings: Any, args: Args = ()) -> Form:
+        """ "(once) you have turned right"."""
+        return self.verb(readings, args)
+
     def verb_after(self, before: Args, readings: Any, args: Args = ()) -> Form:
         """ "forty five degrees turn right"."""
         if any(arg.kind in (Kind.PHRASE, Kind.EVENT, Kind.PATH) for arg in before):
@@ -263,6 +267,12 @@ _PLAIN: dict[str, Action] = {
     "until": lambda core, marker, condition: Term("until", (condition, core)),
     "until_first": lambda marker, condition, core: Term("until", (condition, core)),
     "until_first_marked": lambda marker, condition, mark, core: Term("until", (condition, core)),
+    "before_first": lambda before, later, core: Term("seq", (core, later)),
+    "before_first_marked": lambda before, later, mark, core: Term("seq", (core, later)),
+    "before_last": lambda core, before, later: Term("seq", (core, later)),
+    "after_first": lambda after, first, core: Term("seq", (first, core)),
+    "after_first_marked": lambda after, first, mark, core: Term("seq", (first, core)),
+    "after_last": lambda core, after, first: Term("seq", (first, core)),
     # arguments
     "second": _second,
     "fourth": lambda first, second, third, fourth: fourth,

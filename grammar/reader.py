@@ -10,7 +10,7 @@ from voxml.vocabulary import Lexicon
 
 from .acts import DialogueAct, Function, NotUnderstood
 from .disfluency import Fluency
-from .ellipsis import Ellipsis
+from .ellipsis import Completer
 from .expectations import describe_expected
 from .language import language_grammar
 from .lattice import DERIVED_TERMINALS, SEPARATORS, Lattice, WordReader
@@ -49,7 +49,7 @@ class Reader:
         self._words = WordReader(lexicon, numbers)
         self._tokenizer = Tokenizer(lexicon.closed)
         self._fluency = Fluency(lexicon, numbers)
-        self._ellipsis = Ellipsis(lexicon)
+        self._completer = Completer(lexicon)
 
     def read(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
         """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
@@ -89,7 +89,7 @@ class Reader:
         for clause in clauses:
             form = None
             if made and made[-1].function is Function.INSTRUCT and clause.function is Function.FRAGMENT:
-                form = self._ellipsis.completed(made[-1].form, clause.form)
+                form = self._completer.completed(made[-1].form, clause.form)
             made.append(clause if form is None else replace(clause, function=Function.INSTRUCT, form=form))
         return tuple(made)
 
