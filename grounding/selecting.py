@@ -40,8 +40,15 @@ def noun_rows(description: Description, world: World) -> Rows:
         if adjective in REGIONS and adjective not in entities.rows_by_attribute:
             rows = _in_region(adjective, rows, world)
         else:
-            rows = np.intersect1d(rows, entities.rows_by_attribute.get(adjective, NO_ROWS), assume_unique=True)
+            rows = _common(rows, entities.rows_by_attribute.get(adjective, NO_ROWS), len(entities))
     return rows
+
+
+def _common(rows: Rows, others: Rows, count: int) -> Rows:
+    """Those of ``rows`` that are among the others, by a mask over all ``count``: no sorting."""
+    among = np.zeros(count, dtype=np.bool_)
+    among[others] = True
+    return rows[among[rows]]
 
 
 def modified(modifier: Term, rows: Rows, world: World, lexicon: Lexicon, meaning: Callable[[Term], Resolution]) -> Rows:
