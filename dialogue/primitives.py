@@ -34,6 +34,7 @@ from .plans import COMMANDS_MAX, Refusal, Refused, Stops
 from .programs import is_amount
 
 _ANGLE_STEP_DEG = 0.1  # what a turn that was computed is rounded to
+_HOUR_DEG = 30.0
 _PLACE_DECIMALS = 3
 _LITTLE = {Unit.METRE: 0.3, Unit.DEGREE: 15.0}  # "a little": about the robot's own length, and a glance aside
 
@@ -107,8 +108,18 @@ class Draft:
             self.add(Turn(Side(target.pred)))
         elif target == Term("back"):
             self.add(Turn(Side.LEFT, 180.0))
+        elif isinstance(target, Term) and target.pred == "clock":
+            self._face_hour(target)
         elif target != Term("forward"):
             self._face(self.meant(target)[0])
+
+    def _face_hour(self, form: Term) -> None:
+        """Look to an hour of a clock face that has twelve straight ahead."""
+        right_deg = sum(hour.value for hour in form.args if isinstance(hour, Quantity)) % 12 * _HOUR_DEG
+        if right_deg >= 180.0:
+            self.add(Turn(Side.LEFT, 360.0 - right_deg))
+        elif right_deg:
+            self.add(Turn(Side.RIGHT, right_deg))
 
     def _face(self, target: Meant) -> None:
         here = self.world.robot
