@@ -1,4 +1,4 @@
-"""Descriptions in generated layouts: right by an oracle of their own, and how the time grows with the number of things."""
+"""Descriptions in generated layouts, beside an oracle of their own; and the time by the number of things."""
 
 from __future__ import annotations
 
@@ -130,8 +130,8 @@ def _growth(lexicon: Lexicon) -> dict[str, object]:
         things = _scattered(chance, size)
         world = _world(things, Pose(0.0, 0.0, 0.0))
         resolve(form, world, lexicon)  # the columns are made once, when they are first used
-        figures[f"ms_of_{size}"] = _median_ms(lambda world=world: resolve(form, world, lexicon))  # type: ignore[misc]
-        figures[f"scan_ms_of_{size}"] = _median_ms(lambda things=things: _scan(things))  # type: ignore[misc]
+        figures[f"ms_of_{size}"] = _median_ms(lambda world=world: resolve(form, world, lexicon))
+        figures[f"scan_ms_of_{size}"] = _median_ms(lambda things=things: _scan(things))
     return figures
 
 
