@@ -257,6 +257,7 @@ _PLAIN: dict[str, Action] = {
     "act_thank": _of(Function.THANK),
     "act_bye": _of(Function.BYE),
     "act_acknowledge": _of(Function.ACKNOWLEDGE),
+    "act_praise": lambda praise, event: (Function.ACKNOWLEDGE, Term("ok")),
     "act_again": _says(Function.FRAGMENT, "again"),
     "act_answer": _of(Function.ANSWER),
     # commands

@@ -61,6 +61,8 @@ def headless(pres: tuple[Pre, ...], posts: tuple[Form | Such, ...] = ()) -> Nomi
     """ "the first", "the nearest on the left": a noun is understood; "the red" is not English for a thing."""
     if not any(pre.is_ordering and isinstance(pre.form, Term) for pre in pres):
         raise Refused("a noun")
+    if pres[-1].is_ordering and not all(pre.is_ordering for pre in pres):  # "left first" is no noun phrase
+        raise Refused("a noun")
     return nominal(ONE, pres, posts)
 
 
