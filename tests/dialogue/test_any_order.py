@@ -47,6 +47,12 @@ FORMS = (
     "the(block,near(the(table)),left_of(the(block)))", "go(to(it))", "find(the(piano))", '"rosie"', "stop_patrol",
     "until(see(a(block)),go(forward))", "when(reach(the(red(block))),turn(left))", "find(the(fiducial,number(3)))",
     "seq(go(forward),wait(5s),turn(left))", "if(exists(a(block)),turn(left),turn(right))", "visit(all(block))",
+    "again", "again(left)", "more(10)", "more(little)", "other(way)", "repeat(2)", "repeat(2,again)", "45deg", "2m",
+    "the(other(one))", "to(the(block))", "not(that(one))", "turn(right)", "go(to(back_there))", "go(through(the(wall)))",
+    "where(you)", "see(what)", "what(that)", "count(block,on(left))", "is(it,red)", "is(you,near(the(table)))", "why",
+    "doing", "going(where)", "color(the(block))", "distance(there)", "exists(anything)", "is(this,a(cone))",
+    'learn("loop",seq(go(forward),perform("loop")))', 'perform("loop")', 'forget("loop")', "name(that(one),the(home))",
+    "name(this(spot),the(home))", "go(to(the(home)))", "open(the(box))", "count(the(block))", "show(the(block))",
 )  # fmt: skip
 places = st.builds(Point, st.floats(-5, 5), st.floats(-5, 5))
 targets = (
