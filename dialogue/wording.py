@@ -73,7 +73,7 @@ def phrase(form: Form) -> str:
 
 
 def _with_rest(pred: str, first: Form, rest: str, modifiers: Sequence[Form]) -> str:
-    if pred == "the" and _is_numbered(modifiers):
+    if pred == "count" or (pred == "the" and _is_numbered(modifiers)):
         return f"{phrase(first)} {rest}"
     noun = plural(phrase(first)) if pred in PLURAL and pred != "every" else phrase(first)
     return f"{_words(pred)} {noun} {rest}".strip()

@@ -33,6 +33,7 @@ class Description:
     modifiers: tuple[Term, ...] = ()
     pointing: Term | None = None
     plural: bool = False
+    count: int | None = None
 
 
 def describe(form: Form) -> Description | None:
@@ -42,6 +43,7 @@ def describe(form: Form) -> Description | None:
     core, chain, ordering = _restrictor(form)
     if not isinstance(core, Term):
         return None
+    core, count = _counted(core)
     adjectives = []
     while len(core.args) == 1 and isinstance(inner := core.args[0], Term):
         adjectives.append(core.pred)
@@ -55,8 +57,18 @@ def describe(form: Form) -> Description | None:
         ordering,
         tuple(part for part in chain if part.pred != POINTED and not _pointing_in(part)),
         next(filter(None, map(_pointing_in, chain)), None),
-        _MANY in adjectives,
+        _MANY in adjectives or count is not None,
+        count,
     )
+
+
+def _counted(core: Term) -> tuple[Term, int | None]:
+    """ "Two blocks": ``count(2,plural(block))``."""
+    match core:
+        case Term("count", (Quantity(value=number), Term() as counted)):
+            return counted, int(number)
+        case _:
+            return core, None
 
 
 def _restrictor(phrase: Term) -> tuple[Form, list[Term], str | None]:

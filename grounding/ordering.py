@@ -122,14 +122,21 @@ def _chosen(ordering: str, origin: str | None, key: Keys, rows: Rows, world: Wor
             passed = np.extract((ahead_m < 0) & (_away_m(world, rows) > _HERE_M), rows)
             return passed[[np.argmin(_away_m(world, passed))]] if len(passed) else NO_ROWS
         case "middle":
-            across = rows[np.argsort(_from_left(world, rows), kind="stable")]
-            return across[(len(across) - 1) // 2 : len(across) // 2 + 1]
+            in_row = rows[np.argsort(_along_row(world, rows), kind="stable")]
+            return in_row[(len(in_row) - 1) // 2 : len(in_row) // 2 + 1]
         case "other":
             return np.extract(rows != _focus_row(world), rows)
         case "same":
             return np.extract(rows == _focus_row(world), rows)
         case _:
             return rows
+
+
+def _along_row(world: World, rows: Rows) -> Keys:
+    """Places in a row of things, which may lie along the robot's way or across it."""
+    local = local_m(world.robot, world.entities.xy_m[rows])
+    along: Keys = local[:, int(np.ptp(local[:, 1]) > np.ptp(local[:, 0]))]
+    return along
 
 
 def _focus_row(world: World) -> int:

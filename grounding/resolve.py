@@ -9,7 +9,7 @@ from grammar.forms import Form, Name, Term
 from robot.geometry import Point
 from voxml.vocabulary import Lexicon
 
-from .descriptions import EXCLUDING, INDEFINITE, PLURAL, Description, attachments, describe
+from .descriptions import DEFINITE, EXCLUDING, INDEFINITE, PLURAL, Description, attachments, describe
 from .entities import NO_ROWS, Entity, Rows
 from .ordering import counted_from, pick
 from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
@@ -170,7 +170,13 @@ def _plural(description: Description, rows: Rows, world: World) -> Resolution:
     if description.determiner == "both" and len(rows) != 2:
         reason = Reason.TOO_FEW if len(rows) < 2 else Reason.NOTHING_FITS
         return Unresolved(reason, description.form, len(rows))
+    if description.count is not None and description.count > len(rows):
+        return Unresolved(Reason.TOO_FEW, description.form, len(rows))
     nearest_first = rows[np.argsort(_away_m(world, rows), kind="stable")]
+    if description.count is not None and description.count < len(rows):
+        if description.determiner in DEFINITE:
+            return _denoted(description.form, rows, world)
+        nearest_first = nearest_first[: description.count]
     return Grounded(tuple(world.entities.items[row] for row in nearest_first))
 
 
