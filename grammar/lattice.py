@@ -37,8 +37,23 @@ class Lattice:
             return ()
         known = self._edges[at]
         if known is None:
-            known = self._edges[at] = self._words.edges(self.texts, at)
+            known = self._words.edges(self.texts, at)
+            if self.texts[at] in MARKS and (at in self._repeats(0) or self._repeats(at + 1)):
+                known = tuple(edge for edge in known if edge.terminal is not None)
+            self._edges[at] = known
         return known
+
+    def _repeats(self, at: int) -> frozenset[int]:
+        """Where a "twice" or "three times" ends that begins here: a mark beside it sets it off from a single clause."""
+        if at >= len(self.texts) or self.texts[at] in MARKS:
+            return frozenset()
+        ends = {at + edge.length for edge in self.edges(at) if edge.terminal == "REPEAT"}
+        for number in self.edges(at):
+            if number.terminal == "NUMBER":
+                after = at + number.length
+                times = () if after < len(self.texts) and self.texts[after] in MARKS else self.edges(after)
+                ends.update(after + edge.length for edge in times if edge.terminal == "TIMES")
+        return frozenset(ends)
 
     def categories(self, at: int) -> frozenset[str]:
         """The terminals that the word (or a phrase that begins with it) may be."""

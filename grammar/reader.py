@@ -59,7 +59,7 @@ class Reader:
         attempt = self._attempt(tokens)
         clauses = attempt.clauses(0)
         if clauses:
-            return _acts(tokens, self._completed(clauses), corrects, self._is_control)
+            return _acts(tokens, self._completed(_repeated(clauses)), corrects, self._is_control)
         return self._not_understood(text, tokens, attempt.trace)
 
     def tokens(self, text: str) -> tuple[Token, ...]:
@@ -107,6 +107,33 @@ class Reader:
             return NotUnderstood((len(text), len(text)), expected)
         token = tokens[trace.furthest]
         return NotUnderstood((token.start, token.end), expected)
+
+
+def _repeated(clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
+    """ "A and B, twice" and "twice, A and B": said apart, how often counts for all of it."""
+    at = next((index for index, clause in enumerate(clauses) if _is_times(clause)), None)
+    if at is None or len(clauses) == 1:
+        return clauses
+    done = clauses[:at] if at else clauses[1:]
+    rest = clauses[at + 1 :] if at else ()
+    if any(clause.function is not Function.INSTRUCT for clause in done):
+        return clauses
+    often = clauses[at].form
+    assert isinstance(often, Term)
+    once = done[0].form if len(done) == 1 else Term("seq", tuple(clause.form for clause in done))
+    whole = Term("repeat", (often.args[0], once))
+    first, last = min(clauses[at].start, done[0].start), max(clauses[at].end, done[-1].end)
+    return (Clause(Function.INSTRUCT, whole, first, last), *rest)
+
+
+def _is_times(clause: Clause) -> bool:
+    form = clause.form
+    return (
+        clause.function is Function.FRAGMENT
+        and isinstance(form, Term)
+        and form.pred == "repeat"
+        and len(form.args) == 1
+    )
 
 
 def _acts(
