@@ -184,7 +184,7 @@ class Fluency:
             before.pop()
         begins = self._kinds(tokens, end)
         if begins & _CLAUSE and not self._reads_as_thing(tokens, end):
-            return [*before[: self._clause_start(before)], *tokens[end:]]
+            return [*before[: self._reparandum_start(before, tokens[end:])], *tokens[end:]]
         at = self._counterpart(before, tokens, end)
         if at is None:
             return None
@@ -242,13 +242,25 @@ class Fluency:
             1,
         )
 
-    def _clause_start(self, tokens: Sequence[Token]) -> int:
-        """Where the last clause begins: behind the last connective that a verb follows."""
-        for at in range(len(tokens) - 1, 0, -1):
+    def _reparandum_start(self, before: Sequence[Token], repair: Sequence[Token]) -> int:
+        """Where the clauses begin that clauses replace: the last one, or as many back as the repair has, if it begins
+        as that one did ("turn left and go forward, no, turn right and go forward").
+        """
+        starts = self._clause_starts(before)
+        count = len(self._clause_starts(repair))
+        for start in starts[-count:]:
+            if before[start].text == repair[0].text:
+                return start
+        return starts[-1]
+
+    def _clause_starts(self, tokens: Sequence[Token]) -> list[int]:
+        """Where clauses begin: at the first word, and behind each connective that a verb follows."""
+        starts = [0]
+        for at in range(1, len(tokens)):
             joins = self._kinds(tokens, at - 1) & _CLEAVE or tokens[at - 1].text in MARKS
             if joins and self._kinds(tokens, at) & _CLAUSE:
-                return at
-        return 0
+                starts.append(at)
+        return starts
 
     def _match(self, table: dict[str, tuple[tuple[str, ...], ...]], tokens: Sequence[Token], at: int) -> int:
         """How many tokens from ``at`` are a phrase of the table, 0 for none."""
