@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from voxml.terms import Quantity, Term
+from voxml.terms import Name, Quantity, Term
 from voxml.vocabulary import Lexicon
 
 from .machine import Edge
 from .numbers import NumberReader
 from .tokens import MARKS, Token
 
-DERIVED_TERMINALS = ("QTY", "QTY_MORE", "NUMBER", "CARDINAL", "PREDICATIVE")
+DERIVED_TERMINALS = ("QTY", "QTY_MORE", "NUMBER", "CARDINAL", "PREDICATIVE", "NAME")
 SEPARATORS = frozenset({"AND", "THEN", "BEFORE_THAT", "BUT"})
 CLAUSE_OPENERS = frozenset({"VERB", "LEAD", "LEAD_ING", "LEAD_TO", "LEAD_PAST", "LIGHT", "IF", "UNTIL", "FORBID"})
 BOUNDARIES = SEPARATORS | CLAUSE_OPENERS
@@ -124,6 +124,8 @@ class WordReader:
     def edges(self, texts: Sequence[str], at: int) -> tuple[Edge, ...]:
         """As `Lattice.edges`."""
         word = texts[at]
+        if word[0] == '"' and len(word) > 1:
+            return (Edge("NAME", Name(word.strip('"').strip()), 1),)
         entry = self._entries.get(word, _NOTHING)
         following = entry.phrases.get(texts[at + 1]) if entry.phrases and at + 1 < len(texts) else None
         found: list[Edge] = []

@@ -268,6 +268,8 @@ _PLAIN: dict[str, Action] = {
     "until": lambda core, marker, condition: Term("until", (condition, core)),
     "until_first": lambda marker, condition, core: Term("until", (condition, core)),
     "until_first_marked": lambda marker, condition, mark, core: Term("until", (condition, core)),
+    "naming": lambda call, what, name: Term("name", (what, name)),
+    "naming_as": lambda call, what, mark, name: Term("name", (what, name)),
     "before_first": lambda before, later, core: Term("seq", (core, later)),
     "before_first_marked": lambda before, later, mark, core: Term("seq", (core, later)),
     "before_last": lambda core, before, later: Term("seq", (core, later)),

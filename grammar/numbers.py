@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from voxml.terms import Quantity, Unit, parse_form
 from voxml.words import ClosedClasses
 
+from .tokens import MARKS
+
 _DIGITS = re.compile(r"[0-9]+(?:\.[0-9]+)?|\.[0-9]+")
 _SLASHED = re.compile(r"([0-9]+)/([1-9][0-9]*)")
 VALUE_MAX = 1e6
@@ -46,7 +48,8 @@ class NumberReader:
         self._more = frozenset(closed.table("more"))
         self._approximate = {word.words for word in closed.words_of("amount_lead")}
         self._approximate_first = frozenset(words[0] for words in self._approximate)
-        self._lengths = _units(closed)
+        self._lengths = _units(closed, "unit")
+        self._last_lengths = _units(closed, "unit_last")
         self._starters = frozenset(
             {*self._units, *self._multipliers, *self._fractions, *self._vague_counts, *self._articles}
             | {*self._point, *self._minus, *self._more, *self._approximate_first}
@@ -159,7 +162,9 @@ class NumberReader:
         for words, quantity in self._lengths.get(tokens[at], ()):
             if tuple(tokens[at : at + len(words)]) == words:
                 return quantity, at + len(words)
-        return None
+        if at + 1 < len(tokens) and tokens[at + 1] not in MARKS and tokens[at + 1] not in self._and:
+            return None
+        return next(((quantity, at + 1) for _, quantity in self._last_lengths.get(tokens[at], ())), None)
 
     def _and_fraction(self, tokens: Sequence[str], value: float, at: int) -> Read:
         """A rest of the same unit: "(a foot) and a half"."""
@@ -186,7 +191,7 @@ class NumberReader:
         if tokens[at] in self._minus:
             found = self.number(tokens, at + 1)
             return None if found is None or found[0] < 0 else (-found[0], found[1])
-        found = self._fraction(tokens, at) or self._cardinal(tokens, at) or self._vague(tokens, at)
+        found = self._part_of(tokens, at) or self._fraction(tokens, at) or self._cardinal(tokens, at) or self._vague(tokens, at)
         if found is None or found[0] > VALUE_MAX:
             return None
         return self._with_fraction(tokens, *found)
@@ -197,6 +202,16 @@ class NumberReader:
             return None
         end = start + 1
         return self._vague_counts[tokens[start]], end + 1 if end < len(tokens) and tokens[end] in self._of else end
+
+    def _part_of(self, tokens: Sequence[str], at: int) -> Read | None:
+        """ "half a dozen"."""
+        part = self._fraction(tokens, at)
+        if part is None:
+            return None
+        start = part[1] + 1 if part[1] < len(tokens) and tokens[part[1]] in self._articles else part[1]
+        if start >= len(tokens) or tokens[start] not in self._multipliers:
+            return None
+        return part[0] * self._multipliers[tokens[start]], start + 1
 
     def _fraction(self, tokens: Sequence[str], at: int) -> Read | None:
         """ "half", "a half", "one half", "three quarters", "1/2"."""
@@ -300,9 +315,9 @@ def _divides(smaller: Quantity, unit: Quantity) -> bool:
     return smaller.unit is unit.unit and ratio > 1 and abs(ratio - round(ratio)) < RATIO_SLACK
 
 
-def _units(closed: ClosedClasses) -> dict[str, tuple[tuple[tuple[str, ...], Quantity], ...]]:
+def _units(closed: ClosedClasses, name: str) -> dict[str, tuple[tuple[tuple[str, ...], Quantity], ...]]:
     table: dict[str, list[tuple[tuple[str, ...], Quantity]]] = {}
-    for word in closed.words_of("unit"):
+    for word in closed.words_of(name):
         quantity = parse_form(word.text)
         assert isinstance(quantity, Quantity), word
         assert quantity.unit is not Unit.COUNT, word

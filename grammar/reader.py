@@ -91,7 +91,7 @@ class Reader:
             if made and made[-1].function is Function.INSTRUCT and clause.function is Function.FRAGMENT:
                 form = self._completer.completed(made[-1].form, clause.form)
             made.append(clause if form is None else replace(clause, function=Function.INSTRUCT, form=form))
-        return tuple(made)
+        return _taught(tuple(made))
 
     def _attempt(self, tokens: tuple[Token, ...]) -> _Attempt:
         return _Attempt(tokens, self.lattice(tokens), self._machine)
@@ -146,6 +146,15 @@ def _acts(
         DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end))
         for clause in _ordered(clauses, corrects, is_control)
     )
+
+
+def _taught(clauses: tuple[Clause, ...]) -> tuple[Clause, ...]:
+    """ "learn the loop: go forward, turn right" is one act: what follows is taught, not done."""
+    first, *rest = clauses
+    if not rest or not isinstance(first.form, Term) or first.form.pred != "learn" or len(first.form.args) != 1:
+        return clauses
+    steps = Term("seq", tuple(clause.form for clause in rest)) if len(rest) > 1 else rest[0].form
+    return (replace(first, form=Term("learn", (*first.form.args, steps)), end=rest[-1].end),)
 
 
 class _Attempt:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from voxml.words import ClosedClasses
 
 _TOKEN = re.compile(
-    r"[0-9]+/[1-9][0-9]*|[0-9]*\.?[0-9]+"  # a half may be written 1/2
+    r"(?<![0-9.])\"[^\W\d_][^\"]{0,60}\""  # a quoted name
+    r"|[0-9]+/[1-9][0-9]*|[0-9]*\.?[0-9]+"  # a half may be written 1/2
     r"|[^\W\d_]+(?:'[^\W\d_]+)*(?:-(?=\s|$))?"  # a word; cut off where a hyphen ends it
     r"|(?<![\w.])-(?=[0-9.])|\.{2,}|[°\"',.;:!?…]"
 )
