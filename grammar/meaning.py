@@ -298,6 +298,7 @@ _PLAIN: dict[str, Action] = {
     "facing": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),
     "facing_heading": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),
     "of": lambda of, what: Arg(Kind.OF, Term("of", (what,))),
+    "of_quantity": lambda of, amount: Arg(Kind.QUANTITY, amount),
     "of_view": lambda of, view, *place: Arg(Kind.OF, Term("of", (view,))),
     "manner": _arg(Kind.MANNER),
     "way": lambda demonstrative, way: Arg(Kind.WAY, Term(_pred(demonstrative), (Term("way"),))),

@@ -42,6 +42,7 @@ class NumberReader:
         self._tens_and = frozenset(closed.table("tens_and"))
         self._point = frozenset(roles.pop("point", ()))
         self._minus = frozenset(roles.pop("minus", ()))
+        self._range = frozenset(roles.pop("range", ()))
         self._of = frozenset(roles.pop("of", ()))
         self._inner_zero = frozenset(roles.pop("zero", ()))
         self._vague_counts = {word: float(value) for value, words in roles.items() for word in words}
@@ -137,6 +138,9 @@ class NumberReader:
                 else self._article(tokens, at)
             )
         value, end = found
+        upper = self.number(tokens, end + 1) if end < len(tokens) and tokens[end] in self._range else None
+        if upper is not None:  # "two to three feet": the less is safe
+            return min(value, upper[0]), self._skip_of(tokens, upper[1])
         corrected = self.number(tokens, end) if end < len(tokens) else None
         if corrected is not None:  # "two three feet": the second replaces the first
             value, end = corrected
