@@ -195,7 +195,12 @@ class NumberReader:
         if tokens[at] in self._minus:
             found = self.number(tokens, at + 1)
             return None if found is None or found[0] < 0 else (-found[0], found[1])
-        found = self._part_of(tokens, at) or self._fraction(tokens, at) or self._cardinal(tokens, at) or self._vague(tokens, at)
+        found = (
+            self._part_of(tokens, at)
+            or self._fraction(tokens, at)
+            or self._cardinal(tokens, at)
+            or self._vague(tokens, at)
+        )
         if found is None or found[0] > VALUE_MAX:
             return None
         return self._with_fraction(tokens, *found)
