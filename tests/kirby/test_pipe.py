@@ -3,10 +3,12 @@
 import os
 import subprocess
 import sys
+from contextlib import closing
 
 import psutil
 import pytest
 
+from kirby.link import RobotLink
 from kirby.worlds import world_file
 from robot.process import RobotOptions, RobotProcess
 from robot.redis_server import RedisServer
@@ -73,6 +75,9 @@ def test_a_robot_that_runs_already_is_used(tmp_path):
         robot = RobotProcess(RobotOptions(server.url, world, tmp_path / "robot", speed="max"))
         robot.start()
         try:
+            with closing(RobotLink(server.url)) as link:
+                while not link.alive():
+                    assert robot.failure is None
             options = ("--redis", server.url, "--world", "figure3")
             assert talk("go forward half a meter", state=tmp_path / "one", options=options).returncode == 0
             shown = talk("go back", state=tmp_path / "two", options=options)
