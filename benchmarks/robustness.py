@@ -33,6 +33,8 @@ _EXAMPLES = 5
 
 def run(strings: int = 100_000, processes: int = 1, seed: int = 1) -> dict[str, Any]:
     """The figures over so many strings."""
+    parse("go forward")
+    long_line_us = _long_line_us()
     shares = [
         (strings // processes + (index < strings % processes), seed * 1_000 + index) for index in range(processes)
     ]
@@ -51,7 +53,7 @@ def run(strings: int = 100_000, processes: int = 1, seed: int = 1) -> dict[str, 
         "not_understood": total["not_understood"],
         "understood": total["understood"],
         "to_be_confirmed": total["repaired"],
-        "long_line_us": _long_line_us(),
+        "long_line_us": long_line_us,
         "examples": [example for _, notes in found for example in notes["examples"]][:_EXAMPLES],
     }
 
