@@ -330,6 +330,7 @@ _PLAIN: dict[str, Action] = {
     "one_post": lambda post: (post,),
     "more_posts": lambda posts, post: (*posts, post),
     "relation": phrases.relation,
+    "relation_of_two": phrases.relation_of_two,
     "relation_you": lambda relation, you: Term(_pred(relation), (YOU,)),
     "on_side": phrases.on_side,
     "ahead": phrases.ahead,

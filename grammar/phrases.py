@@ -124,6 +124,13 @@ def relation(relation_form: Form, place: Form) -> Term:
     return Term(pred, (place,))
 
 
+def relation_of_two(relation_form: Form, one: Form, mark: Form, other: Form) -> Term:
+    """ "between the door and the window": a place that takes two landmarks; any other takes one."""
+    if _pred(relation_form) != "between":
+        raise Refused("one landmark")
+    return Term("between", (one, other))
+
+
 def on_side(side: Form) -> Term:
     """ "on your left", as a modifier."""
     return Term("on", (side,))
