@@ -18,6 +18,8 @@ _CAMERA = {
     Term("next"): CameraMove.SWITCH_RIGHT,
     Term("left"): CameraMove.ROTATE_LEFT,
     Term("right"): CameraMove.ROTATE_RIGHT,
+    **{Term("your", (Term(noun),)): CameraMove.ROBOT_VIEW for noun in ("view", "camera")},
+    **{Term("the", (Term(noun),)): CameraMove.BIRDS_EYE for noun in ("overview", "map")},
 }
 
 
