@@ -35,7 +35,7 @@ def picture(name: str, size: tuple[float, float] = (9, 6.4)) -> Iterator[Axes]:
     axes.set_aspect("equal")
     axes.set_xlabel("x, metres")
     axes.set_ylabel("y, metres")
-    axes.legend(loc="lower left", frameon=False)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=4, frameon=False)
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
     figure.savefig(PICTURES / f"{name}.svg", metadata={"Date": None})
