@@ -14,7 +14,6 @@ Run as ``python -m benchmarks.bridge [--json]``.
 
 from __future__ import annotations
 
-import argparse
 import json
 import random
 import statistics
@@ -213,19 +212,3 @@ def _start(url: str, *options: str) -> subprocess.Popen[str]:
 
 def _spawn(*arguments: str) -> subprocess.Popen[str]:
     return subprocess.Popen([sys.executable, *arguments], stdout=subprocess.PIPE, text=True)  # noqa: S603 - a list
-
-
-def main() -> None:
-    """Print the figures, as text or as JSON."""
-    parser = argparse.ArgumentParser(description="latency of the bridge")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    figures = run()
-    if parser.parse_args().json:
-        print(json.dumps(figures))
-        return
-    for name, value in figures.items():
-        print(f"{name.replace('_', ' '):36s}{value:10g}")
-
-
-if __name__ == "__main__":
-    main()

@@ -12,7 +12,6 @@ Run as ``python -m benchmarks.faults [--json]``.
 
 from __future__ import annotations
 
-import argparse
 import json
 import random
 import subprocess
@@ -251,19 +250,3 @@ def _memory_mb(client: redis.Redis, pid: int) -> tuple[float, float]:
     """Of the robot's process (resident) and of Redis (in use)."""
     used: int = client.info("memory")["used_memory"]
     return round(psutil.Process(pid).memory_info().rss / 2**20, 1), round(used / 2**20, 1)
-
-
-def main() -> None:
-    """Print the figures, as text or as JSON."""
-    parser = argparse.ArgumentParser(description="faults that the bridge survives")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    figures = run()
-    if parser.parse_args().json:
-        print(json.dumps(figures))
-        return
-    for name, value in figures.items():
-        print(f"{name.replace('_', ' '):36s}{value:10g}")
-
-
-if __name__ == "__main__":
-    main()

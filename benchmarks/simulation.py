@@ -10,8 +10,6 @@ Run as ``python -m benchmarks.simulation [--json]``.
 
 from __future__ import annotations
 
-import argparse
-import json
 import resource
 import statistics
 import time
@@ -106,19 +104,3 @@ def _bare_loop(scene: Scene, moments: list[Moment]) -> float:
     seconds = time.perf_counter() - began
     pybullet.disconnect(physicsClientId=client)
     return seconds
-
-
-def main() -> None:
-    """Print the figures, as text or as JSON."""
-    parser = argparse.ArgumentParser(description="speed of the simulated robot against the bare simulator")
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
-    figures = run()
-    if parser.parse_args().json:
-        print(json.dumps(figures))
-        return
-    for name, value in figures.items():
-        print(f"{name.replace('_', ' '):36s}{value:10g}")
-
-
-if __name__ == "__main__":
-    main()
