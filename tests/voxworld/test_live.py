@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 import redis
-from onlooker import on_screen, still, until
+from onlooker import heading_rad, on_screen, settled, still, until
 
 from kirby.agent import Agent
 from kirby.conversation import Conversation
@@ -26,6 +26,7 @@ from kirby.worlds import find_world
 from robot.geometry import Point, Pose
 from robot.messages import Keys, decode_fiducials, decode_odom
 from robot.redis_server import RedisServer
+from voxworld.cameras import TURN_RAD
 
 pytestmark = pytest.mark.physics
 
@@ -130,6 +131,41 @@ def point(page: Any, view: View, place: tuple[float, float, float]) -> None:
     before = view.world.pointed
     page.mouse.click(*on_screen(page, still(view.world), place))
     until(lambda: view.world.pointed != before)
+
+
+def test_gestures_and_words_move_the_camera(bus: RedisServer, client: Any, tmp_path: Path, visit: Visit) -> None:
+    """Through the whole dialogue, by the camera that the browser reports; the robot stays where it is."""
+    with robot(bus, client, tmp_path), viewed(bus) as view:
+        page = visit(view.world.url)
+        stood = pose(client)
+        above = settled(view.world).client.camera.position[2]
+
+        def height() -> float:
+            z: float = settled(view.world).client.camera.position[2]
+            return z
+
+        def heading() -> float:
+            return heading_rad(settled(view.world))
+
+        page.get_by_text("Gestures").click()
+        for gesture, holds in (
+            ("servo left", lambda: abs(heading() - TURN_RAD) < 0.03),
+            ("servo right", lambda: abs(heading()) < 0.03),
+            ("servo back", lambda: height() > above * 1.1),
+            ("push right", lambda: height() < 0.3),
+            ("push left", lambda: height() > 3.0),
+        ):
+            page.get_by_role("button", name=gesture).click()
+            until(holds)
+        for words, holds in (
+            ("show me your view", lambda: height() < 0.3),
+            ("show me the bird's eye view", lambda: height() > 3.0),
+            ("rotate the camera left", lambda: abs(heading() - TURN_RAD) < 0.03),
+            ("switch views", lambda: height() < 0.3),
+        ):
+            say(page, words)
+            until(holds)
+        assert pose(client).point.distance_to(stood.point) < 0.01
 
 
 def test_seeing_pointing_talking_and_stopping(bus: RedisServer, client: Any, tmp_path: Path, visit: Visit) -> None:
