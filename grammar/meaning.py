@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from voxml.terms import Form, Quantity, Term
+from voxml.terms import Form, Quantity, Term, Unit
 from voxml.vocabulary import Lexicon, Reading
 
 from . import phrases
@@ -131,7 +131,7 @@ class Meaning:
 
     def path_point(self, relation: Form, x: Quantity, y: Quantity) -> Arg:
         """ "to 2 3", "to coordinates 2 3": a place on the map."""
-        point = Term("point", tuple(parse_metres(each) for each in (x, y)))
+        point = Term("point", (Quantity(x.value, Unit.METRE), Quantity(y.value, Unit.METRE)))
         return Arg(Kind.PATH, Term(_pred(relation), (point,)))
 
     def event(self, readings: tuple[Reading, ...]) -> Arg:
@@ -184,13 +184,6 @@ class Meaning:
 
     def q_see_kind(self, what: Form, kind: Nominal, see: Form) -> Form:
         return Term("see", (phrases.phrase(Term("what"), kind),))
-
-
-def parse_metres(number: Quantity) -> Form:
-    """A coordinate: a bare number is metres."""
-    from voxml.terms import Unit
-
-    return Quantity(number.value, Unit.METRE)
 
 
 def _pred(form: Form) -> str:

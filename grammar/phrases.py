@@ -158,13 +158,6 @@ def ordered(what: Nominal, ordering: Form) -> Nominal:
     return replace(what, orderings=(ordering, *what.orderings))
 
 
-def with_modifier(form: Form, modifier: Form) -> Form:
-    """A phrase with one more modifier at the end of its chain."""
-    if not isinstance(form, Term):
-        raise Refused("a thing")
-    return replace(form, args=(*form.args, modifier))
-
-
 def _pred(form: Form) -> str:
     if not isinstance(form, Term):
         raise Refused("a word")

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from dialogue.understanding import understand
-from grammar import parse
 from voxml.vocabulary import load_lexicon
+
+from .agent import understand
 
 Record = dict[str, Any]
 
@@ -19,7 +19,6 @@ def reader(world: str | None) -> Callable[[str], Record]:
     Raises:
         UsageError: there is no such world.
     """
-    lexicon = load_lexicon()
     known = None
     if world is not None:
         from grounding import World
@@ -27,7 +26,7 @@ def reader(world: str | None) -> Callable[[str], Record]:
         from .worlds import find_world
 
         known = World.explored(find_world(world))
-    return partial(understand, world=known, lexicon=lexicon, parse=partial(parse, lexicon=lexicon))
+    return partial(understand, world=known, lexicon=load_lexicon())
 
 
 def show_record(record: Record) -> str:

@@ -32,7 +32,7 @@ from .link import RobotLink
 from .replay import logged
 from .transcript import Transcript
 from .view_options import ViewOptions
-from .worlds import DEFAULT_WORLD, find_world, world_file
+from .worlds import DEFAULT_WORLD, world_file
 
 START_PATIENCE_S = 60.0
 
@@ -139,7 +139,8 @@ def _conversation(
     with ExitStack() as stack:
         lexicon = load_lexicon()
         _speed(options.speed or speed)
-        scene = find_world(options.world or DEFAULT_WORLD) if options.world or not options.redis else None
+        simulated = options.world is not None or options.redis is None
+        world, scene = world_file(options.world or DEFAULT_WORLD) if simulated else (None, None)
         folder = stack.enter_context(StateFolder(options.state)).path
         url = options.redis or stack.enter_context(RedisServer(folder)).url
         link = stack.enter_context(closing(RobotLink(url, options.namespace)))
@@ -149,8 +150,7 @@ def _conversation(
         stack.enter_context(logged(conversation, options.log))
         link.start(conversation.deliver)
         robot = None
-        if options.redis is None or (options.world is not None and not link.alive()):
-            world, _ = world_file(options.world or DEFAULT_WORLD)
+        if world is not None and (options.redis is None or not link.alive()):
             robot = process.RobotProcess(_robot_options(options, url, world, folder, speed))
             stack.enter_context(closing(robot))
             robot.start()

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from dialogue.events import CameraMove
 from robot.geometry import Pose
 
-from .cameras import Bounds, Camera, View, Viewpoint
+from .cameras import Bounds, Camera, Viewpoint
 from .motion import TIME_CONSTANT_S, Vector, blend
 
 NAME_KEY = "kirby-name"
@@ -34,11 +34,6 @@ class Person:
     goal: Camera | None = None
     shown: Camera | None = None
     _set_s: float = 0.0
-
-    @property
-    def follows(self) -> bool:
-        """Whether the camera goes with the robot."""
-        return self.viewpoint.view is View.ROBOT and not self.by_hand
 
     def move(self, move: CameraMove) -> None:
         """Change the viewpoint; the camera glides there in the frames that follow."""
