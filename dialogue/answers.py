@@ -7,6 +7,7 @@ from dataclasses import replace
 from grammar.acts import DialogueAct, Function
 from grammar.forms import Form, Name, Quantity, Term
 from grounding import Entity, Grounded, resolve
+from grounding.descriptions import describe
 from grounding.pointing import likely_rows
 
 from .events import Pointing, Tone
@@ -77,7 +78,9 @@ def pointed(turn: Turn, pointing: Pointing) -> bool:
     if turn.session.state is not State.AWAITING_REFERENT:
         return False
     among = turn.session.world.only(question.candidates).entities
-    rows = likely_rows(shown, among, among.all_rows)
+    described = describe(question.hole)
+    before = () if described is None else described.pointings
+    rows = likely_rows((*before, shown), among, among.all_rows)
     if len(rows) != 1:
         ask_again(turn)
     else:

@@ -40,10 +40,16 @@ class PointedObject:
 
 @dataclass(frozen=True, slots=True)
 class PointedRay:
-    """A pointing ray over the floor, from ``origin`` in ``direction_rad``."""
+    """A pointing ray, from ``origin`` in ``direction_rad``.
+
+    With an elevation (up from the horizontal) it begins at the eye or hand, ``height_m`` above the floor; without one
+    only its bearing over the floor is known.
+    """
 
     origin: Point
     direction_rad: float
+    elevation_rad: float | None = None
+    height_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,10 +27,16 @@ def pointing_form(pointing: Pointing) -> Term:
             return Term("pointed", (Name(id),))
         case PointedPlace(place):
             return _with_spread(point_form(place), pointing.spread_m, Unit.METRE)
-        case PointedRay(origin, direction_rad):
-            angle = Quantity(math.degrees(direction_rad), Unit.DEGREE)
-            ray = Term("ray", (*point_form(origin).args, angle))
-            return _with_spread(ray, math.degrees(pointing.spread_rad), Unit.DEGREE)
+        case PointedRay() as ray:
+            return _with_spread(_ray_form(ray), math.degrees(pointing.spread_rad), Unit.DEGREE)
+
+
+def _ray_form(ray: PointedRay) -> Term:
+    flat = (*point_form(ray.origin).args, Quantity(math.degrees(ray.direction_rad), Unit.DEGREE))
+    if ray.elevation_rad is None:
+        return Term("ray", flat)
+    upwards = Quantity(math.degrees(ray.elevation_rad), Unit.DEGREE), Quantity(ray.height_m, Unit.METRE)
+    return Term("ray", (*flat, *upwards))
 
 
 def _with_spread(target: Term, spread: float, unit: Unit) -> Term:

@@ -95,7 +95,7 @@ def _call(turn: Turn, what: Form, meaning: Form) -> None:
 
 def _is_here(what: Form) -> bool:
     description = describe(what)
-    return what == Term("here") or (description is not None and description.noun in _HERE and not description.pointing)
+    return what == Term("here") or (description is not None and description.noun in _HERE and not description.pointings)
 
 
 def _unseen_number(what: Form, world: World) -> str | None:

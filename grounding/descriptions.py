@@ -23,7 +23,7 @@ _MANY = "plural"
 
 @dataclass(frozen=True, slots=True)
 class Description:
-    """``form`` is the whole noun phrase. ``pointing`` is what fusion put there: ``pointed(...)``."""
+    """``form`` is the whole noun phrase. ``pointings`` are what fusion put there: ``pointed(...)``."""
 
     form: Form
     determiner: str
@@ -31,7 +31,7 @@ class Description:
     adjectives: tuple[str, ...] = ()
     ordering: str | None = None
     modifiers: tuple[Term, ...] = ()
-    pointing: Term | None = None
+    pointings: tuple[Term, ...] = ()
     plural: bool = False
     count: int | None = None
 
@@ -56,7 +56,7 @@ def describe(form: Form) -> Description | None:
         tuple(adjective for adjective in adjectives if adjective != _MANY),
         ordering,
         tuple(part for part in chain if part.pred != POINTED and not _pointing_in(part)),
-        next(filter(None, map(_pointing_in, chain)), None),
+        tuple(filter(None, map(_pointing_in, chain))),
         _MANY in adjectives or count is not None,
         count,
     )

@@ -74,6 +74,13 @@ class Entities:
         return np.array([(e.pose.x_m, e.pose.y_m) for e in self.items], dtype=np.float64).reshape(-1, 2)
 
     @cached_property
+    def middle_m(self) -> NDArray[np.float64]:
+        """Middles of their bodies, shape (n, 2), map frame: a marker's pose is on the front of what it marks."""
+        yaw_rad = np.array([e.pose.yaw_rad for e in self.items], dtype=np.float64)
+        behind_m = np.array([e.fiducial_id is not None for e in self.items], dtype=np.float64) * self.size_m[:, 0] / 2
+        return np.asarray(self.xy_m - behind_m[:, None] * np.stack([np.cos(yaw_rad), np.sin(yaw_rad)], axis=1))
+
+    @cached_property
     def size_m(self) -> NDArray[np.float64]:
         """Length, width and height, shape (n, 3)."""
         return np.array([e.size_m for e in self.items], dtype=np.float64).reshape(-1, 3)

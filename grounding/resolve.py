@@ -77,7 +77,7 @@ def _pointed_at(form: Form, pointing: Term, world: World) -> Resolution:
     place = pointed_place(pointing)
     if place is not None:
         return Grounded((place,))
-    rows = likely_rows(pointing, world.entities, world.entities.all_rows)
+    rows = likely_rows((pointing,), world.entities, world.entities.all_rows)
     return _denoted(form, rows, world, Reason.POINTED_ELSEWHERE)
 
 
@@ -87,7 +87,7 @@ def _pointed_way(form: Form, rest: list[Form], world: World) -> Resolution:
         return Unresolved(Reason.NEEDS_POINTING, form)
     ray = pointed_ray(rest[0])
     if ray is not None:
-        return Grounded((Heading(ray[1]),))
+        return Grounded((Heading(ray.direction_rad),))
     target = _pointed_at(form, rest[0], world)
     if not isinstance(target, Grounded):
         return target
@@ -123,7 +123,7 @@ def _reading(description: Description, chain: tuple[Term, ...], world: World, le
             rows = modified(modifier, rows, world, lexicon, lambda form: resolve(form, world, lexicon))
     if description.determiner in EXCLUDING and world.focus:
         rows = np.extract(rows != world.entities.index.get(world.focus[0], -1), rows)
-    if description.noun == ONE and description.pointing is None:
+    if description.noun == ONE and not description.pointings:
         rows = _of_the_kind_spoken_of(rows, world)
     if description.ordering is not None:
         assert isinstance(description.form, Term)
@@ -145,8 +145,8 @@ def _of_the_kind_spoken_of(rows: Rows, world: World) -> Rows:
 
 def _determined(description: Description, rows: Rows, world: World) -> Resolution:
     """What is meant of the things that fit, by the determiner."""
-    if description.pointing is not None:
-        rows = likely_rows(description.pointing, world.entities, rows)
+    if description.pointings:
+        rows = likely_rows(description.pointings, world.entities, rows)
         return _denoted(description.form, rows, world, Reason.POINTED_ELSEWHERE)
     if description.plural or description.determiner in PLURAL:
         return _plural(description, rows, world)

@@ -207,6 +207,28 @@ def test_a_ray_means_what_lies_along_it_and_a_way_its_direction() -> None:
     assert meant("this(way,pointed(ray(0m,0m,90deg)))") == Grounded((Heading(math.pi / 2),))
 
 
+def test_with_its_elevation_a_ray_tells_what_stands_near_from_what_stands_far() -> None:
+    row = World(ORIGIN, Entities((thing("near", "box", 1.5, 0.0), thing("far", "box", 4.0, 0.1))))
+    flat = meant("that(box,pointed(ray(0m,0m,0deg),5deg))", row)
+    assert isinstance(flat, Ambiguous)
+    assert ids(meant("that(box,pointed(ray(0m,0m,0deg,-40deg,1.4m),5deg))", row)) == ["near"]
+    assert ids(meant("that(box,pointed(ray(0m,0m,0deg,-18deg,1.4m),5deg))", row)) == ["far"]
+
+
+def test_a_ray_that_comes_down_shows_a_place() -> None:
+    outcome = meant("there(pointed(ray(1m,0m,90deg,-45deg,1.5m)))")
+    assert isinstance(outcome, Grounded)
+    assert isinstance(outcome.one, Point)
+    assert outcome.one.distance_to(Point(1.0, 1.5)) < 1e-9
+
+
+def test_pointing_twice_tells_more_than_pointing_once() -> None:
+    pair = World(ORIGIN, Entities((thing("a", "box", 3.0, 0.0), thing("b", "box", 3.0, 0.8))))
+    once = "pointed(ray(0m,0m,5deg),5deg)"
+    assert isinstance(meant(f"that(box,{once})", pair), Ambiguous)
+    assert ids(meant(f"that(box,{once},{once},{once})", pair)) == ["a"]
+
+
 # ------------------------------------------------------------------ properties
 places = st.tuples(st.floats(-9, 9), st.floats(-9, 9))
 
