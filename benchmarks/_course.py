@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from robot.geometry import Point, Pose
 from voxml.scene import Scene
 
-from ._truth import ROBOT_RADIUS_M, Ways
+from ._truth import ROBOT_RADIUS_M, solid_of
+from ._ways import Ways, reach
 
 EASY_M = 0.08  # a circle so much larger than the robot still gets to a goal that counts as reachable
 TIGHT_M = 0.04  # and one so much smaller does not come near one that counts as unreachable
@@ -32,12 +33,13 @@ class Course:
     """Draws starts and goals in a scene; what can be reached is settled by geometry."""
 
     def __init__(self, scene: Scene, chance: random.Random) -> None:
-        self.ways = Ways(scene, ROBOT_RADIUS_M)
+        solid = solid_of(scene)
+        self.ways = Ways(solid, ROBOT_RADIUS_M, solid.envelope)
         self._chance = chance
         home = Point(scene.start.x_m, scene.start.y_m)
-        self._easy = self.ways.reach(home, ROBOT_RADIUS_M + EASY_M)
-        self._possible = self.ways.reach(home, ROBOT_RADIUS_M - TIGHT_M)
-        self._bounds = self.ways.solid.bounds
+        self._easy = reach(solid, home, ROBOT_RADIUS_M + EASY_M)
+        self._possible = reach(solid, home, ROBOT_RADIUS_M - TIGHT_M)
+        self._bounds = solid.bounds
 
     def anywhere(self) -> Pose:
         """A place from which everything reachable can be reached, facing any way."""

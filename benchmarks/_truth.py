@@ -1,24 +1,21 @@
-"""What is true of a world, for measuring against: surfaces, what a laser can see of them, shortest ways.
+"""What is true of a world, for measuring against: its surfaces, and what a laser can see of them.
 
-Computed from the scene alone, by shapely and networkx; nothing of the robot's own code takes part.
+Computed from the scene alone, by shapely; nothing of the robot's own code takes part.
 """
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 
-import networkx as nx
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 from shapely import Geometry, Polygon, affinity
-from shapely.prepared import prep
 
 from robot.body import Scan
-from robot.geometry import Point, Pose
+from robot.geometry import Pose
 from voxml.scene import Scene, Wall
 
 Floats = NDArray[np.float64]
@@ -163,63 +160,3 @@ def _distance_to(starts: Floats, along: Floats) -> Floats:
     squared = np.maximum((along**2).sum(axis=1), 1e-12)
     share = np.clip(-(starts * along).sum(axis=1) / squared, 0.0, 1.0)
     return np.asarray(np.hypot(*(starts + share[:, None] * along).T))
-
-
-# ------------------------------------------------------------------ ways
-class Ways:
-    """Where a round robot can be and the shortest ways between, by a visibility graph over grown obstacles.
-
-    Grown corners are drawn as chords of the true arcs, so a way is never longer than the true optimum.
-    """
-
-    def __init__(self, scene: Scene, radius_m: float = ROBOT_RADIUS_M) -> None:
-        self.solid = solid_of(scene)
-        outside = self.solid.envelope
-        self.grown = self.solid.buffer(radius_m, quad_segs=3)
-        self.free = outside.difference(self.grown)
-        self._inner = prep(self.grown.buffer(-1e-6))
-        self._nodes = self._corners(outside)
-        self._graph: nx.Graph = nx.Graph()
-        self._graph.add_nodes_from(range(len(self._nodes)))
-        for index, node in enumerate(self._nodes):
-            self._join(index, node, self._nodes[index + 1 :], index + 1)
-
-    def reach(self, home: Point, radius_m: float) -> Callable[[Point], float]:
-        """How far a place is from the ground that a circle of ``radius_m`` can be brought to from ``home``."""
-        free = self.solid.envelope.difference(self.solid.buffer(radius_m))
-        start = shapely.Point(home.x_m, home.y_m)
-        part = next(part for part in shapely.get_parts(free) if part.covers(start))
-        shapely.prepare(part)
-        return lambda place: float(part.distance(shapely.Point(place.x_m, place.y_m)))
-
-    def length_m(self, start: Point, end: Point) -> float:
-        """Of the shortest way; inf if there is none."""
-        graph = self._graph.copy()
-        a, b = np.array([start.x_m, start.y_m]), np.array([end.x_m, end.y_m])
-        graph.add_nodes_from(["start", "end"])
-        for name, place in (("start", a), ("end", b)):
-            for number, distance_m in self._visible(place, self._nodes):
-                graph.add_edge(name, number, weight=distance_m)
-        if self._visible(a, b[None]):
-            graph.add_edge("start", "end", weight=start.distance_to(end))
-        try:
-            return float(nx.dijkstra_path_length(graph, "start", "end"))
-        except nx.NetworkXNoPath:
-            return math.inf
-
-    def _corners(self, outside: Geometry) -> Floats:
-        rings = [ring for part in shapely.get_parts(self.free) for ring in (part.exterior, *part.interiors)]
-        corners = np.array([corner for ring in rings for corner in ring.coords[:-1]]).reshape(-1, 2)
-        return np.asarray(corners[shapely.covers(outside, shapely.points(corners))])
-
-    def _join(self, index: int, node: Floats, others: Floats, first: int) -> None:
-        for number, distance_m in self._visible(node, others):
-            self._graph.add_edge(index, first + number, weight=distance_m)
-
-    def _visible(self, place: Floats, others: Floats) -> list[tuple[int, float]]:
-        """The number and distance of those that a straight way reaches."""
-        if not len(others):
-            return []
-        lines = shapely.linestrings(np.stack([np.broadcast_to(place, others.shape), others], axis=1))
-        distances = np.hypot(*(others - place).T)
-        return [(n, float(distances[n])) for n in range(len(others)) if not self._inner.intersects(lines[n])]

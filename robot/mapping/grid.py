@@ -23,6 +23,7 @@ MAX_LOG_ODDS = 3.5
 OCCUPIED_LOG_ODDS = 0.5
 # Without an echo a beam counts as free to this far before the greatest range: a wall just there may stay unheard.
 NO_ECHO_MARGIN_M = 0.1
+GRAZING = math.sin(math.radians(2.0))  # what is flatter is a gap between two surfaces, not one surface
 RESERVE_CELLS = 100  # room left on every side whenever the array has to grow
 
 
@@ -112,8 +113,12 @@ class OccupancyGrid:
         directions = np.stack([np.cos(bearings), np.sin(bearings)])
         origin = np.array([[pose.x_m], [pose.y_m]])
         change: NDArray[np.float32] = np.zeros(patch.shape, np.float32)
-        self._mark_free(change, patch, origin, directions, reach_m)
-        ends = origin + directions[:, echo] * reach_m[echo]
+        ends = origin + directions * reach_m
+        # A beam counts as free while it is a cell away from the surface it ends on: noise must not eat into walls, nor
+        # must beams that graze along them.
+        margin_m = np.where(echo, self.resolution_m / _incidence(directions, ends, echo), self.resolution_m)
+        self._mark_free(change, patch, origin, directions, reach_m - margin_m)
+        ends = ends[:, echo]
         change.ravel()[self._flat_cells(ends, patch)] = HIT_LOG_ODDS
         cells = self._view(patch)
         known_before = np.count_nonzero(cells)
@@ -128,11 +133,10 @@ class OccupancyGrid:
         patch: Window,
         origin: NDArray[np.float64],
         directions: NDArray[np.float64],
-        reach_m: NDArray[np.float64],
+        clear_m: NDArray[np.float64],
     ) -> None:
-        steps_m = np.arange(0.0, float(reach_m.max(initial=0.0)), self.resolution_m)
-        # A beam counts as free up to one cell before its end, so that range noise does not eat into walls.
-        passed = steps_m[None, :] < reach_m[:, None] - self.resolution_m
+        steps_m = np.arange(0.0, float(clear_m.max(initial=0.0)), self.resolution_m)
+        passed = steps_m[None, :] < clear_m[:, None]
         beam, step = np.nonzero(passed)
         places = origin + directions[:, beam] * steps_m[step]
         change.ravel()[self._flat_cells(places, patch)] = MISS_LOG_ODDS
@@ -163,3 +167,16 @@ class OccupancyGrid:
             self._cells
         )
         self._room, self._cells = room, cells
+
+
+def _incidence(
+    directions: NDArray[np.float64], ends: NDArray[np.float64], echo: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """Sine of the angle, shape (beams,), between each beam and the surface that it and its neighbours end on."""
+    before, after = np.roll(ends, 1, axis=1), np.roll(ends, -1, axis=1)
+    before, after = np.where(np.roll(echo, 1), before, ends), np.where(np.roll(echo, -1), after, ends)
+    along = after - before
+    length_m = np.hypot(along[0], along[1])
+    across_m = np.abs(along[0] * directions[1] - along[1] * directions[0])
+    sine: NDArray[np.float64] = np.where(length_m > 0.0, across_m / np.maximum(length_m, 1e-9), 1.0)
+    return np.maximum(sine, GRAZING)
