@@ -10,6 +10,7 @@ from voxml.schema import Argument, ProgramEntry
 from voxml.terms import Form, Name, Quantity, Term, Unit
 from voxml.vocabulary import Lexicon, Reading
 
+from . import phrases
 from .machine import Refused
 
 _UNIT_TYPES = {Unit.METRE: "length", Unit.DEGREE: "angle", Unit.SECOND: "duration", Unit.COUNT: "count"}
@@ -41,6 +42,7 @@ class Kind(Enum):
     MANNER = "manner"
     REPEAT = "repeat"
     EVENT = "event"
+    MEASURE = "measure"  # an amount with what it measures: a radius of two metres
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +114,7 @@ class ArgumentFitter:
                 repeats.append(arg.form)
             else:
                 self._bind(entry, bound, arg)
+        _take_modifiers(entry, bound)
         missing = next((slot for slot in _slots(entry) if _needed(slot) and slot.variable not in bound), None)
         if missing is not None:
             raise Refused(_wanted(missing))
@@ -152,7 +155,7 @@ class ArgumentFitter:
                 return form if {"side", "rotation"} & set(types) else None
             case Kind.AXIS | Kind.HEADING | Kind.WAY as kind, form:
                 return form if kind.value in types else None
-            case Kind.PATH | Kind.LOCATION | Kind.FACING | Kind.OF, Term() as form:
+            case Kind.PATH | Kind.LOCATION | Kind.FACING | Kind.OF | Kind.MEASURE, Term() as form:
                 return self._relation(slot, arg.kind, form)
             case Kind.PLACE, form:
                 return self._place(slot, form)
@@ -172,6 +175,8 @@ class ArgumentFitter:
     def _marked(self, slot: Argument, form: Form) -> bool:
         if isinstance(form, Term) and not form.args and form.pred in slot.types:
             return True
+        if isinstance(form, Quantity):
+            return _UNIT_TYPES[form.unit] in slot.types
         return self._is_of_type(form, slot.types)
 
     def _place(self, slot: Argument, form: Form) -> Form | None:
@@ -199,6 +204,20 @@ def head_noun(form: Form) -> str:
     while isinstance(form, Term) and form.args:
         form = form.args[0]
     return form.pred if isinstance(form, Term) else ""
+
+
+def _take_modifiers(entry: ProgramEntry, bound: dict[str, Form]) -> None:
+    """A verb's own preposition outranks its noun's: "search the kitchen for a cup", "put the box on the table"."""
+    for slot in _slots(entry):
+        if slot.bare or slot.variable in bound:
+            continue
+        for variable, form in bound.items():
+            parted = phrases.parted(form, frozenset(slot.markers))
+            if parted is not None:
+                modifier = parted[1]
+                is_place = not slot.markers
+                bound[variable], bound[slot.variable] = parted[0], modifier if is_place else modifier.args[0]
+                break
 
 
 def _given(form: Form) -> Arg:

@@ -8,10 +8,11 @@ begins.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from voxml.vocabulary import Lexicon
 
-from .numbers import NumberReader
+from .amounts import AmountReader
 from .tokens import MARKS, Token
 
 _CLAUSE = frozenset({"VERB", "VERB_ING", "LIGHT", "LEAD", "LEAD_ING", "LEAD_TO"})
@@ -27,10 +28,11 @@ _CLIPPED_MIN = 4
 class Fluency:
     """Cleans the tokens of utterances with the words of one language."""
 
-    def __init__(self, lexicon: Lexicon, numbers: NumberReader) -> None:
+    def __init__(self, lexicon: Lexicon, amounts: AmountReader) -> None:
         closed = lexicon.closed
         self._lexicon = lexicon
-        self._numbers = numbers
+        self._amounts = amounts
+        self._numbers = amounts.numbers
         self.vocabulary = lexicon.vocabulary() - frozenset(closed.table("filler")) | _number_words(lexicon)
         self._fillers = frozenset(closed.table("filler"))
         self._strong = _phrases(lexicon, "edit")
@@ -52,7 +54,7 @@ class Fluency:
         )
 
     def is_word(self, word: str) -> bool:
-        return word in self.vocabulary or word in MARKS or word[0].isdigit() or self._numbers.may_start(word)
+        return word in self.vocabulary or word in MARKS or word[0].isdigit() or self._amounts.may_start(word)
 
     def clean(self, tokens: Sequence[Token]) -> tuple[tuple[Token, ...], bool]:
         """The tokens as they were meant, and whether they begin by taking something back ("no, I mean ...")."""
@@ -78,7 +80,7 @@ class Fluency:
     def _is_filler(self, tokens: Sequence[Token], at: int) -> bool:
         """A hesitation; but "er" may be an editing term ("forty er ninety"), which is seen later."""
         word = tokens[at].text
-        if word in self._fillers and at and self._numbers.is_unit(word) and tokens[at - 1].text[-1].isdigit():
+        if word in self._fillers and at and self._amounts.is_unit(word) and tokens[at - 1].text[-1].isdigit():
             return False
         return word in self._fillers and not (word in self._weak and 0 < at < len(tokens) - 1)
 
@@ -87,7 +89,7 @@ class Fluency:
         word = tokens[at].text
         if word.endswith("-"):
             return True
-        if kept and self._numbers.is_unit(word) and self._is_number(kept[-1].text):
+        if kept and self._amounts.is_unit(word) and self._is_number(kept[-1].text):
             return False
         if len(word) == 1 and word.isalpha() and (not kept or not self._is_number(kept[-1].text)):
             return not self._begins_phrase(tokens, at)
@@ -104,7 +106,7 @@ class Fluency:
         """Whether a letter is a word here: "a", "i", "t junction"."""
         word = tokens[at].text
         texts = tuple(token.text for token in tokens[at : at + 8])
-        if self._numbers.may_start(word):
+        if self._amounts.may_start(word):
             return True
         return any(texts[: len(sense.words)] == sense.words for sense in self._lexicon.senses(word))
 
@@ -127,7 +129,7 @@ class Fluency:
         if whole is None:
             return token
         said_again = at + 1 < len(tokens) and tokens[at + 1].text == whole
-        return None if said_again else Token(whole, token.start, token.end)
+        return None if said_again else replace(token, text=whole)
 
     # ------------------------------------------------------------ editing terms
     def _leading_edit(self, tokens: list[Token]) -> tuple[list[Token], bool]:
@@ -219,7 +221,7 @@ class Fluency:
         for name, group in (("direction", _DIRECTION), ("relation", _RELATION), ("thing", _THING)):
             if kinds & group:
                 return name
-        return "unit" if self._numbers.is_unit(word) else None
+        return "unit" if self._amounts.is_unit(word) else None
 
     def _kinds(self, tokens: Sequence[Token], at: int) -> frozenset[str]:
         """The categories of the longest phrases that begin at the token."""
@@ -319,13 +321,13 @@ class Fluency:
         number = self._numbers.number(texts, at)
         if number is None or not number[1] < len(texts):
             return 0
-        start = number[1] + 1 if self._numbers.is_unit(texts[number[1]]) else number[1]
+        start = number[1] + 1 if self._amounts.is_unit(texts[number[1]]) else number[1]
         again = self._numbers.number(texts, start) if start > number[1] else None
         if again is not None and again[0] == number[0]:
             return start
-        first, second = self._numbers.amount(texts, at), None
+        first, second = self._amounts.amount(texts, at), None
         if first is not None and first[1] < len(texts) and self._is_number(texts[first[1]]):
-            second = self._numbers.amount(texts, first[1])
+            second = self._amounts.amount(texts, first[1])
         same = second is not None and first is not None and second[0].quantity.unit is first[0].quantity.unit
         return first[1] if same and first is not None else 0
 

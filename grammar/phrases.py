@@ -83,7 +83,7 @@ def phrase(determiner: Form, what: Nominal) -> Form:
     chain = flat_chain(what.modifiers)
     for ordering in reversed(what.orderings):
         inner = (core, *chain)
-        core = Term("count", (ordering, *inner)) if isinstance(ordering, Quantity) else Term(_pred(ordering), inner)
+        core = Term("count", (ordering, *inner)) if isinstance(ordering, Quantity) else Term(pred_of(ordering), inner)
         chain = ()
     return Term(determiner.pred, (core, *chain))
 
@@ -112,13 +112,13 @@ def compound(modifier: Form, head: Form) -> Form:
         raise Refused("a noun")
     narrowing = modifier.args[0] if modifier.pred == "plural" else modifier
     if head.pred == "plural":
-        return Term("plural", (Term(_pred(narrowing), head.args),))
-    return Term(_pred(narrowing), (head,))
+        return Term("plural", (Term(pred_of(narrowing), head.args),))
+    return Term(pred_of(narrowing), (head,))
 
 
 def relation(relation_form: Form, place: Form) -> Term:
     """A relation with its landmark; "between a and b" takes the two apart."""
-    pred = _pred(relation_form)
+    pred = pred_of(relation_form)
     if pred == "between" and isinstance(place, Term) and place.pred == "and":
         return Term(pred, place.args)
     return Term(pred, (place,))
@@ -126,7 +126,7 @@ def relation(relation_form: Form, place: Form) -> Term:
 
 def relation_of_two(relation_form: Form, one: Form, mark: Form, other: Form) -> Term:
     """ "between the door and the window": a place that takes two landmarks; any other takes one."""
-    if _pred(relation_form) != "between":
+    if pred_of(relation_form) != "between":
         raise Refused("one landmark")
     return Term("between", (one, other))
 
@@ -138,7 +138,7 @@ def on_side(side: Form) -> Term:
 
 def ahead(axis: Form) -> Term:
     """ "the door ahead", "the one behind" as seen by the robot."""
-    return _AHEAD[_pred(axis)]
+    return _AHEAD[pred_of(axis)]
 
 
 def without_last(form: Form) -> tuple[Form, Form]:
@@ -153,12 +153,34 @@ def without_last(form: Form) -> tuple[Form, Form]:
             raise Refused("what about it")
 
 
+def parted(form: Form, preds: frozenset[str]) -> tuple[Form, Term] | None:
+    """A phrase without its first modifier of these relations (of any, where there are none), and that modifier.
+
+    What stands behind the modifier goes with its landmark: which of the two it belongs to, the world settles.
+    """
+    match form:
+        case Term(pred, (core, *chain)) if chain:
+            for at, modifier in enumerate(chain):
+                if isinstance(modifier, Term) and len(modifier.args) == 1 and (not preds or modifier.pred in preds):
+                    landmark = _with_modifiers(modifier.args[0], tuple(chain[at + 1 :]))
+                    return Term(pred, (core, *chain[:at])), Term(modifier.pred, (landmark,))
+        case Term(pred, (Term() as inner,)):
+            found = parted(inner, preds)
+            return None if found is None else (Term(pred, (found[0],)), found[1])
+    return None
+
+
+def _with_modifiers(form: Form, modifiers: tuple[Form, ...]) -> Form:
+    return Term(form.pred, (*form.args, *modifiers)) if isinstance(form, Term) and modifiers else form
+
+
 def ordered(what: Nominal, ordering: Form) -> Nominal:
     """A noun with one more ordinal or superlative."""
     return replace(what, orderings=(ordering, *what.orderings))
 
 
-def _pred(form: Form) -> str:
+def pred_of(form: Form) -> str:
+    """The predicate of a term. Raises Refused for what has none."""
     if not isinstance(form, Term):
         raise Refused("a word")
     return form.pred

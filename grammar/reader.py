@@ -9,15 +9,16 @@ from voxml.terms import Form, Term
 from voxml.vocabulary import Lexicon
 
 from .acts import DialogueAct, Function, NotUnderstood
+from .amounts import AmountReader
 from .disfluency import Fluency
 from .ellipsis import Completer
 from .expectations import describe_expected
 from .language import language_grammar
-from .lattice import DERIVED_TERMINALS, SEPARATORS, Lattice, WordReader
+from .lattice import SEPARATORS, Lattice
 from .machine import Action, Machine, Tables, Trace, build_tables
 from .meaning import Meaning
-from .numbers import NumberReader
 from .tokens import MARKS, Token, Tokenizer
+from .word_edges import DERIVED_TERMINALS, WordReader
 
 TEXT_MAX_CHARS = 2_000
 READINGS_MAX = 12
@@ -41,14 +42,14 @@ class Reader:
     """Reads utterances with one lexicon and one language's grammar. Immutable; building it takes about 0.2 s."""
 
     def __init__(self, lexicon: Lexicon, language: str = "en") -> None:
-        numbers = NumberReader(lexicon.closed)
+        amounts = AmountReader(lexicon.closed)
         meaning = Meaning(lexicon)
         self._lexicon = lexicon
         self._tables = tables_of(lexicon, language, meaning.action)
         self._machine = Machine(self._tables)
-        self._words = WordReader(lexicon, numbers)
+        self._words = WordReader(lexicon, amounts)
         self._tokenizer = Tokenizer(lexicon.closed)
-        self._fluency = Fluency(lexicon, numbers)
+        self._fluency = Fluency(lexicon, amounts)
         self._completer = Completer(lexicon)
 
     def read(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:

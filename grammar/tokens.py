@@ -9,22 +9,25 @@ from voxml.words import ClosedClasses
 
 _TOKEN = re.compile(
     r"(?<![0-9.])\"[^\W\d_][^\"]{0,60}\""  # a quoted name
-    r"|[0-9]+/[1-9][0-9]*|[0-9]*\.?[0-9]+"  # a half may be written 1/2
+    r"|[0-9]+(?:st|nd|rd|th)\b"
+    r"|[0-9]+/[1-9][0-9]*|[0-9]*\.?[0-9]+|[½¼¾⅓⅔⅛]"  # a half may be written 1/2
     r"|[^\W\d_]+(?:'[^\W\d_]+)*(?:-(?=\s|$))?"  # a word; cut off where a hyphen ends it
     r"|(?<![\w.])-(?=[0-9.])|\.{2,}|[°\"',.;:!?…]"
 )
 _QUOTES = str.maketrans({"\u2018": "'", "\u2019": "'", "\u201c": '"', "\u201d": '"', "\u2212": "-", "\u2013": "-"})
+_FRACTIONS = {"½": "1/2", "¼": "1/4", "¾": "3/4", "⅓": "1/3", "⅔": "2/3", "⅛": "1/8"}
 _PAUSES = frozenset({"...", "\u2026"})
 MARKS = frozenset({",", ";", ":", ".", "!", "?"})
 
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A word as the grammar reads it, and where it stands in the utterance (character offsets, end exclusive)."""
+    """A word as the grammar reads it, where it stands in the utterance (character offsets, end exclusive), and how."""
 
     text: str
     start: int
     end: int
+    written: str = ""
 
 
 class Tokenizer:
@@ -40,7 +43,7 @@ class Tokenizer:
             word, start, end = match[0], match.start(), match.end()
             if word in _PAUSES or (len(word) > 1 and not word.strip(".")):
                 continue
-            if word == "-":
-                word = "minus"
-            tokens.extend(Token(part, start, end) for part in self._contractions.get(word, (word,)))
+            written = text[start:end]
+            word = "minus" if word == "-" else _FRACTIONS.get(word, word)
+            tokens.extend(Token(part, start, end, written) for part in self._contractions.get(word, (word,)))
         return tokens

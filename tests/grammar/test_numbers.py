@@ -6,12 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from grammar.numbers import NumberReader
+from grammar.amounts import AmountReader
 from grammar.tokens import Tokenizer
 from voxml.vocabulary import load_lexicon
 
 CLOSED = load_lexicon().closed
-READER = NumberReader(CLOSED)
+AMOUNTS = AmountReader(CLOSED)
+READER = AMOUNTS.numbers
 TOKENIZE = Tokenizer(CLOSED)
 ONES = [
     *("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"),
@@ -70,20 +71,20 @@ def test_numbers(text: str, value: float) -> None:
 )  # fmt: skip
 def test_quantities_are_metres_degrees_and_seconds(text: str, quantity: str) -> None:
     said = texts(text)
-    found = READER.amount(said, 0)
+    found = AMOUNTS.amount(said, 0)
     assert found is not None
     assert (str(found[0].quantity), found[1]) == (quantity, len(said))
 
 
 @pytest.mark.parametrize("text", ["another two feet", "two more feet", "two feet more", "an additional two feet"])
 def test_an_amount_that_adds_says_so(text: str) -> None:
-    found = READER.amount(texts(text), 0)
+    found = AMOUNTS.amount(texts(text), 0)
     assert found is not None
     assert found[0].more
 
 
 def test_units_of_other_systems_are_not_added_up() -> None:
-    found = READER.amount(texts("a step two feet"), 0)
+    found = AMOUNTS.amount(texts("a step two feet"), 0)
     assert found is not None
     assert found[1] == 2
 
@@ -95,5 +96,5 @@ def test_units_of_other_systems_are_not_added_up() -> None:
 )
 def test_any_words_are_read_without_error_and_within_bounds(said: list[str]) -> None:
     for at in range(len(said)):
-        for found in (READER.number(said, at), READER.amount(said, at), READER.more(said, at)):
+        for found in (READER.number(said, at), AMOUNTS.amount(said, at), AMOUNTS.more(said, at)):
             assert found is None or at < found[1] <= len(said)

@@ -1,0 +1,94 @@
+"""What the rules for acts and for commands of several parts mean, by the rule's name in the ``.lark`` file."""
+
+from __future__ import annotations
+
+from voxml.terms import Form, Quantity, Term
+
+from .acts import Function
+from .machine import Action
+from .phrases import ONE, pred_of
+
+Act = tuple[Function, Form]
+_AGAIN = Term("again")
+_STOP = Term("stop")
+
+
+def _of(kind: Function) -> Action:
+    return lambda form: (kind, form)
+
+
+def _says(kind: Function, pred: str) -> Action:
+    return lambda form: (kind, Term(pred))
+
+
+def _quality(quality: Form) -> Act:
+    """ "(which one?) red"."""
+    return Function.FRAGMENT, Term("the", (Term(pred_of(quality), (ONE,)),))
+
+
+def _again_often(that: Form, times: Form | Quantity, *mark: Form) -> Act:
+    return Function.FRAGMENT, Term("repeat", (times, _AGAIN))
+
+
+def _conditional(marker: Form, condition: Form, core: Form, *otherwise: Form) -> Form:
+    """ "if C, A, otherwise B", "when C, A", "unless C, A"."""
+    if pred_of(marker) == "unless":
+        return Term("if", (Term("not", (condition,)), core, *otherwise))
+    return Term(pred_of(marker), (condition, core, *otherwise))
+
+
+def _until(condition: Form, core: Form) -> Form:
+    return Term("until", (condition, core))
+
+
+def _sequence(first: Form, second: Form) -> Form:
+    return Term("seq", (first, second))
+
+
+ACT_ACTIONS: dict[str, Action] = {
+    "act_instruct": _of(Function.INSTRUCT),
+    "act_question": _of(Function.QUESTION),
+    "act_inform": _of(Function.INFORM),
+    "act_confirm": _says(Function.CONFIRM, "yes"),
+    "act_deny": _says(Function.DENY, "no"),
+    "act_halt": _says(Function.INSTRUCT, "stop"),
+    "act_greet": _of(Function.GREET),
+    "act_thank": _of(Function.THANK),
+    "act_bye": _of(Function.BYE),
+    "act_acknowledge": _of(Function.ACKNOWLEDGE),
+    "act_praise": lambda praise, event: (Function.ACKNOWLEDGE, Term("ok")),
+    "act_answer": _of(Function.ANSWER),
+    "act_forbid": lambda no, what: (Function.INSTRUCT, Term("not", (what,))),
+    "act_again": _says(Function.FRAGMENT, "again"),
+    "act_again_often": _again_often,
+    "act_suggest": lambda about, what: (Function.FRAGMENT, what),
+    "act_quality": _quality,
+    "act_quality_of": lambda determiner, quality: _quality(quality),
+    "act_number": lambda mark, number: (Function.FRAGMENT, number),
+    "act_until": lambda marker, condition: (Function.FRAGMENT, Term("until", (condition,))),
+    "act_not": lambda mark, wrong: (Function.CORRECT, Term("not", (wrong[0].form,))),
+    "act_rather": lambda mark, wrong, separator, right: (Function.CORRECT, right[0].form),
+    "act_rather_first": lambda right, separator, mark, wrong: (Function.CORRECT, right[0].form),
+}
+
+COMMAND_ACTIONS: dict[str, Action] = {
+    "conditional": _conditional,
+    "conditional_marked": lambda marker, condition, mark, core: _conditional(marker, condition, core),
+    "conditional_after": lambda core, marker, condition: _conditional(marker, condition, core),
+    "alternative": lambda marker, condition, core, mark, other: _conditional(marker, condition, core, other),
+    "alternative_marked": lambda marker, condition, mark, core, otherwise, other: _conditional(
+        marker, condition, core, other
+    ),
+    "until": lambda core, marker, condition: _until(condition, core),
+    "until_first": lambda marker, condition, core: _until(condition, core),
+    "until_first_marked": lambda marker, condition, mark, core: _until(condition, core),
+    "before_first": lambda before, later, core: _sequence(core, later),
+    "before_first_marked": lambda before, later, mark, core: _sequence(core, later),
+    "before_last": lambda core, before, later: _sequence(core, later),
+    "after_first": lambda after, first, core: _sequence(first, core),
+    "after_first_marked": lambda after, first, mark, core: _sequence(first, core),
+    "after_last": lambda core, after, first: _sequence(first, core),
+    "naming": lambda call, what, name: Term("name", (what, name)),
+    "naming_as": lambda call, what, mark, name: Term("name", (what, name)),
+    "stopping": lambda *said: _STOP,
+}

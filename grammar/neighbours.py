@@ -1,0 +1,103 @@
+"""What the words around a word say about how it is to be read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from voxml.vocabulary import Lexicon
+
+from .machine import Edge
+from .tokens import MARKS
+
+_DIRECTIONS = frozenset({"AXIS", "SIDE", "HEADING"})
+_QUALITIES = frozenset({"ADJECTIVE", "ORDINAL", "SIDE_ADJ"})
+_NAMES_OF_THINGS = frozenset({"NOUN", "NOUNS"})
+_PASSED_OVER = Edge(None, None, 1)
+
+
+class Neighbours:
+    """Chooses among the readings of words, by one lexicon."""
+
+    def __init__(self, lexicon: Lexicon) -> None:
+        closed = lexicon.closed
+        self._copulas = frozenset(closed.table("BE"))
+        self._of = frozenset(closed.table("OF"))
+        self._addresses = frozenset(closed.table("address"))
+        self._refusals = frozenset(closed.table("NO"))
+        self._openers = frozenset(closed.table("opener"))
+        self._enumerators = frozenset(closed.table("enumerator"))
+        self._benefactives = frozenset(closed.table("benefactive"))
+        categories = {word: {sense.category for sense in lexicon.lookup(word)} for word in lexicon.vocabulary()}
+        self._determiners = _in(categories, {"DETERMINER"})
+        self._nouns = _in(categories, {"NOUN", "NOUNS"})
+        self._verbs = _in(categories, {"VERB"}) - self._nouns
+        self._to_do = _in(categories, {"VERB", "LIGHT"})
+        self._clauses = self._verbs | _in(categories, {"LIGHT"}) | self._addresses
+        self._ways = _in(categories, {"AXIS", "SIDE", "HEADING", "PLACE", "PATH"}) - self._nouns
+        adjectives = {sense.words[0] for sense in lexicon.all_senses() if sense.category == "ADJECTIVE"}
+        openers = self._addresses | self._refusals | self._openers
+        self._delicate = self._enumerators | self._benefactives | self._determiners | openers | adjectives
+
+    def agreeing(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
+        """Those of the edges that agree with the words around, and what these add."""
+        if texts[at] not in self._delicate and self._of.isdisjoint(texts):
+            return found
+        if not at or texts[at - 1] in MARKS:
+            return self._opening(found, texts, at)
+        word, before = texts[at], texts[at - 1]
+        after = texts[at + 1] if at + 1 < len(texts) else ""
+        if word in self._enumerators and before in self._verbs and after in self._ways:
+            return (_PASSED_OVER,)  # "go first there, then there"
+        if word in self._benefactives and before in self._to_do and after in self._determiners:
+            return (_PASSED_OVER, *found)  # "find me a chair"
+        if word in self._determiners and before in self._nouns:  # "exit the building" is no building
+            found = tuple(edge for edge in found if edge.terminal is not None)
+        return self._qualities(self._before_of(found, texts, at), texts, at)
+
+    def _opening(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
+        """At the beginning: "no" is an answer, "robot" is spoken to, "first" counts, "right" opens."""
+        word = texts[at]
+        after = texts[at + 1] if at + 1 < len(texts) else ""
+        if word in self._refusals:
+            return tuple(edge for edge in found if edge.terminal != "DETERMINER")
+        if word in self._enumerators and after in self._verbs:
+            return (_PASSED_OVER,)
+        if word in self._addresses and (after or at):
+            return (_PASSED_OVER, *found) if after else (_PASSED_OVER,)
+        if word in self._openers and after in MARKS and at + 2 < len(texts) and texts[at + 2] in self._clauses:
+            return (_PASSED_OVER, *found)
+        return self._qualities(self._before_of(found, texts, at), texts, at) if _ends(texts, at + 1) else found
+
+    def _before_of(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
+        """ "The middle of", "to the back of": before "of" stands a thing, not a quality nor a direction."""
+        is_noun = any(edge.terminal in _NAMES_OF_THINGS for edge in found)
+        return tuple(
+            edge
+            for edge in found
+            if not _follows(texts, at + edge.length, self._of)
+            or not ((is_noun and edge.terminal in _QUALITIES) or (edge.length > 1 and edge.terminal in _DIRECTIONS))
+        )
+
+    def _qualities(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
+        """A quality needs its noun, unless it is said of something ("is red") or alone in its clause ("the red")."""
+        qualities = [edge for edge in found if edge.terminal == "ADJECTIVE"]
+        if not qualities:
+            return found
+        if _follows(texts, at + 1, self._determiners):  # "near the door" is where, not what it is like
+            found = tuple(edge for edge in found if edge.terminal != "ADJECTIVE" or edge.length > 1)
+        asserted = at > 0 and texts[at - 1] in self._copulas
+        predicative = (edge for edge in qualities if asserted or _ends(texts, at + edge.length))
+        return (*found, *(Edge("PREDICATIVE", edge.value, edge.length) for edge in predicative))
+
+
+def _in(categories: dict[str, set[str]], wanted: set[str]) -> frozenset[str]:
+    """The words that may be of one of the categories."""
+    return frozenset(word for word, found in categories.items() if not found.isdisjoint(wanted))
+
+
+def _follows(texts: Sequence[str], at: int, words: frozenset[str]) -> bool:
+    return at < len(texts) and texts[at] in words
+
+
+def _ends(texts: Sequence[str], at: int) -> bool:
+    return at >= len(texts) or texts[at] in MARKS
