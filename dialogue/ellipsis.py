@@ -147,5 +147,14 @@ def _with_place(place: Term, last: Term, lexicon: Lexicon) -> Form | None:
     return None
 
 
-_WHOLE: Mapping[str, Callable[[Term, Form], Form | None]] = {"again": _again, "redo": _again, "repeat": _repeated}
+def _back(fragment: Term, last: Form) -> Form:
+    return Term("go", (Term("to", (fragment,)),))
+
+
+_WHOLE: Mapping[str, Callable[[Term, Form], Form | None]] = {
+    "again": _again,
+    "redo": _again,
+    "repeat": _repeated,
+    "back_there": _back,
+}
 """What leans on everything that was said last, not on its last clause."""

@@ -80,11 +80,15 @@ class GestureKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Gesture:
-    """A gesture that was recognised: one of the default set, or a learned one by its name."""
+    """A gesture that was recognised: one of the default set, or a learned one by its name.
+
+    ``at_view`` says that it was made at the shared view rather than at the robot: a servo then turns the camera.
+    """
 
     kind: GestureKind | str
     time_s: float
     speaker: str | None = None
+    at_view: bool = False
 
 
 @dataclass(frozen=True, slots=True)

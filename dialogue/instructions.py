@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from grammar.acts import DialogueAct, Function
 from grammar.forms import Form, Term
 from grounding import Ambiguous, Reason, Unresolved
-from robot.messages import Command, Control
+from robot.messages import CancelCommand, Command, Control, Patrol
 
 from .events import Tone
 from .fusion import demonstratives, fuse, recent
-from .leaning import leaned
+from .leaning import leaned, leaned_in_turn
 from .performing import perform, reply
 from .planning import plan
 from .plans import Plan, Refusal, Refused
@@ -19,25 +19,13 @@ from .session import HISTORY_MAX, Agenda, Past, Question
 from .table import Activity, Trigger
 from .teaching import teach, teaches
 from .turn import Turn
-from .wording import command_words, listed, name_entities, refused, unresolved
+from .wording import command_words, refused, unresolved
 
-STOP = Term("stop")
 _PASSING = frozenset({Control.STOP, Control.CONTINUE, Control.KEEP_GOING, Control.QUEUE, Control.TAKE_PICTURE})
 """Commands that leave what is being done as it is, or take it up again."""
 
 _CLEARING = frozenset({Control.CANCEL, Control.CANCEL_ALL, Control.GO_BACK, Control.STOP_PATROL})
 """Commands that get out of the way what would keep the robot from a new movement."""
-
-
-def stops(form: Form) -> bool:
-    """Whether an instruction begins with stopping."""
-    match form:
-        case Term(pred="stop", args=()):
-            return True
-        case Term(pred="seq", args=(first, *_)):
-            return stops(first)
-        case _:
-            return False
 
 
 def obey(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
@@ -49,10 +37,11 @@ def obey(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
         turn.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {repaired[0]}?", sure))
         return
     fused = _fused(turn, acts, time_s)
-    if len(fused) == 1 and isinstance(fused[0].form, Term) and teaches(fused[0].form):
-        teach(turn, fused[0].form)
+    if len(fused) == 1 and teaches(fused[0].form):
+        teach(turn, fused[0])
         return
-    carry_out(turn, tuple(replace(act, form=leaned(act.form, turn.session)) for act in fused))
+    forms = leaned_in_turn(tuple(act.form for act in fused), turn.session)
+    carry_out(turn, tuple(replace(act, form=form) for act, form in zip(fused, forms, strict=True)))
 
 
 def _fused(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> tuple[DialogueAct, ...]:
@@ -79,8 +68,7 @@ def ask_kirby(turn: Turn, act: DialogueAct, time_s: float) -> None:
 def tell_kirby(turn: Turn, act: DialogueAct, time_s: float) -> None:
     """Remember what is so from now on."""
     (told,) = _fused(turn, (act,), time_s)
-    assert isinstance(told.form, Term)
-    teach(turn, told.form)
+    teach(turn, told)
 
 
 def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
@@ -89,12 +77,9 @@ def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
     outcome = plan(tuple(act.form for act in acts), world, turn.lexicon)
     match outcome:
         case Plan():
-            _send(turn, outcome, tuple(act.form for act in acts))
+            _send(turn, outcome, acts)
         case Ambiguous(form, candidates):
-            ids = tuple(entity.id for entity in candidates)
-            text = f"Which one: {listed(name_entities(candidates, world))}?"
-            turn.highlight(ids, ())
-            turn.ask(Trigger.ASK_REFERENT, Question(text, acts, form, ids))
+            turn.ask_which(acts, form, candidates)
         case Unresolved(Reason.NEEDS_POINTING, Term(pred="here") as here):
             come = instruct(Term("go", (Term("to", (here,)),)))
             turn.ask(Trigger.ASK_PLACE, Question(unresolved(outcome), (come,), here))
@@ -108,34 +93,41 @@ def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
             turn.say(refused(outcome), Tone.REFUSAL)
 
 
-def _send(turn: Turn, made: Plan, forms: tuple[Form, ...]) -> None:
+def _send(turn: Turn, made: Plan, acts: tuple[DialogueAct, ...]) -> None:
     """Send a plan, unless the robot would refuse it where it is: then offer what would have to be done first."""
+    turn.highlight(tuple(entity.id for entity in made.entities), made.places)
+    movements = tuple(command for command in made.commands if _moves(command))
+    if movements and not _CLEARING & set(made.commands) and (offer := _in_the_way(turn)) is not None:
+        order = " and ".join(command_words(command) for command in made.commands)
+        question = Question(f"{offer.text} and {order}?", acts, commands=(offer.command,))
+        turn.ask(Trigger.ASK_CONFIRMATION, question)
+        return
     if not set(made.commands) <= _PASSING:
         turn.update(agenda=None)
     if made.then is not None:
         turn.update(agenda=Agenda(made.then))
     for event in made.events:
         perform(turn, event)
-    if not made.commands:
-        if made.then is not None:
-            turn.say("Okay.")
-        return
-    moving = [c for c in made.commands if not isinstance(c, Control)]
-    turn.highlight(tuple(entity.id for entity in made.entities), made.places)
-    turn.update(
-        world=turn.session.world.speaking_of(tuple(entity.id for entity in reversed(made.entities))),
-        place=made.places[-1] if made.places else None if made.entities else turn.session.place,
-    )
-    first = _in_the_way(turn) if moving and not _CLEARING & set(made.commands) else None
-    past = (*turn.session.history, Past(forms, made.commands, turn.session.start))[-HISTORY_MAX:] if moving else None
-    if past is not None:
-        turn.update(history=past)
-    if first is None:
-        turn.dispatch(made.commands)
-        return
-    offer, command = first
-    order = " and ".join(command_words(c) for c in made.commands)
-    turn.ask(Trigger.ASK_CONFIRMATION, Question(f"{offer} and {order}?", commands=(command, *made.commands)))
+    if made.commands:
+        _speak_of(turn, made)
+        start = turn.session.start
+        ids = turn.dispatch(made.commands)
+        if movements:
+            past = Past(tuple(act.form for act in acts), made.commands, start, ids)
+            turn.update(history=(*turn.session.history, past)[-HISTORY_MAX:])
+    elif made.then is not None:
+        turn.say("Okay.")
+
+
+def _moves(command: Command) -> bool:
+    return not isinstance(command, Control | CancelCommand)
+
+
+def _speak_of(turn: Turn, made: Plan) -> None:
+    """What a plan is about is what "it" and "there" mean from now on."""
+    ids = tuple(entity.id for entity in reversed(made.entities))
+    place = made.places[-1] if made.places else None if made.entities else turn.session.place
+    turn.update(world=turn.session.world.speaking_of(ids), place=place)
 
 
 def cancel_all(turn: Turn) -> None:
@@ -144,16 +136,26 @@ def cancel_all(turn: Turn) -> None:
     turn.update(ideal=None, agenda=None)
 
 
-def _in_the_way(turn: Turn) -> tuple[str, Command] | None:
-    """What keeps the robot from new movements, as an offer to drop it, and the command that does."""
-    if turn.cleared:
+@dataclass(frozen=True, slots=True)
+class _Offer:
+    """What keeps the robot from new movements, as words that offer to drop it, and the command that does."""
+
+    text: str
+    command: Command
+
+
+def _in_the_way(turn: Turn) -> _Offer | None:
+    """What the robot would refuse new movements for. Told to stop and do something else, it drops what it stopped."""
+    if turn.sent & _CLEARING:
         return None
-    if turn.session.activity is Activity.PATROLLING:
-        return "I am patrolling. Shall I stop the patrol", Control.STOP_PATROL
+    current = next((task.command for task in turn.session.tasks if task.moves), None)
+    if turn.session.activity is Activity.PATROLLING or isinstance(current, Patrol):
+        return _Offer("I am patrolling. Shall I stop the patrol", Control.STOP_PATROL)
     if turn.session.activity in (Activity.PAUSED, Activity.LEFT_OVER):
-        current = next((task for task in turn.session.tasks if task.moves), None)
-        on = f" on '{command_words(current.command)}'" if current else ""
-        return f"I am paused{on}. Shall I drop it", Control.CANCEL_ALL
+        on = f" on '{command_words(current)}'" if current else ""
+        return _Offer(f"I am paused{on}. Shall I drop it", Control.CANCEL_ALL)
+    if Control.STOP in turn.sent and turn.session.moving:
+        cancel_all(turn)
     return None
 
 
@@ -162,8 +164,8 @@ def confirm(turn: Turn, question: Question, time_s: float) -> None:
     turn.settle()
     if question.commands:
         turn.dispatch(question.commands)
-    else:
-        obey(turn, question.acts, time_s)
+        turn.update(ideal=None)
+    obey(turn, question.acts, time_s)
 
 
 def instruct(form: Form) -> DialogueAct:

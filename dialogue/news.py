@@ -5,11 +5,14 @@ The robot's messages are the paper's; Kirby says them as they are.
 
 from __future__ import annotations
 
-from robot.messages import Control, FeedbackCode
+from functools import reduce
+
+from robot.geometry import Pose
+from robot.messages import Control, FeedbackCode, ideal_end
 from robot.messages import Turn as TurnCommand
 
 from .events import RobotFeedback, Tone
-from .session import Task
+from .session import Session, Task
 from .table import Activity
 from .turn import Turn
 from .wording import turned
@@ -54,16 +57,22 @@ def hear_robot(turn: Turn, event: RobotFeedback) -> None:
     """Update what the robot is at, and tell."""
     feedback = event.feedback
     task = next((task for task in turn.session.tasks if task.id == feedback.id), None)
-    if feedback.code in _FAILURES or feedback.code in (Code.CANCELLED_GOAL, Code.CANCELLED_ALL):
-        turn.update(ideal=None)
     if task is not None and (feedback.code in ENDINGS or not task.moves):
         turn.update(tasks=tuple(other for other in turn.session.tasks if other != task))
+    if feedback.code in _FAILURES or feedback.code in (Code.CANCELLED_GOAL, Code.CANCELLED_ALL):
+        turn.update(ideal=_recomputed(turn.session))
     if feedback.code in _FAILURES:
         turn.update(reason=feedback.message)
     elif feedback.code in _BY_ORDER:
         turn.update(reason="")
     _tell(turn, event, task)
     _follow(turn, event)
+
+
+def _recomputed(session: Session) -> Pose | None:
+    """Where what is left ends: the robot works it out anew from where it is (RSB, ``cancel``)."""
+    left = [task.command for task in session.tasks if task.moves]
+    return reduce(ideal_end, left, session.world.robot) if left else None
 
 
 def _tell(turn: Turn, event: RobotFeedback, task: Task | None) -> None:

@@ -6,7 +6,7 @@ from grammar.acts import DialogueAct, Function
 from grammar.forms import Form, Name, Term
 from grounding import Ambiguous, Entity, Grounded, Unresolved, resolve
 
-from .events import CameraMove, MoveCamera, Tone
+from .events import CameraMove, Tone
 from .reports import Report, report
 from .session import Question
 from .table import Trigger
@@ -60,7 +60,7 @@ def perform(turn: Turn, event: Term) -> None:
         case "pace", _:
             turn.say("I have only one speed.", Tone.REFUSAL)
         case "show" | "pan", [Term() as view, *_] if view in _CAMERA:
-            turn.outputs.append(MoveCamera(_CAMERA[view]))
+            turn.move_camera(_CAMERA[view])
         case "show" | "highlight", [target, *_]:
             _show(turn, target)
         case _:

@@ -20,6 +20,7 @@ from .programs import bind, substitute
 _STEPS_MAX = 10_000
 """Of unfolding; a lexicon may hold programs that unfold into themselves."""
 
+_STOPPING = Term("control", (Term("stop"),))
 _GO_ON = "go_on"  # in a plan's list: what follows begins once the condition holds, and what came before goes on
 _HALT = "halt"  # ends what is being done
 
@@ -135,6 +136,8 @@ class _Planner:
             raise Stops(Refused(Refusal.NO_PART, event.args[0]))
         if event.pred == "dialogue":
             return self._said(event)
+        if event == _STOPPING and self.draft.moves:
+            return []  # every movement ends with standing still; the command would halt it before
         if primitive is None:
             return [event]
         primitive(self.draft, event)

@@ -62,6 +62,11 @@ class Draft:
         self.commands.append(command)
         self.world = self.world.with_robot(ideal_end(self.world.robot, command))
 
+    @property
+    def moves(self) -> bool:
+        """Whether the robot moves in what was planned so far."""
+        return any(not isinstance(command, Control) for command in self.commands)
+
     def meant(self, form: Form) -> tuple[Meant, ...]:
         """The things, the place or the heading that a form means at this point of the plan."""
         outcome = resolve(form, self.world, self.lexicon)
@@ -82,7 +87,8 @@ class Draft:
         back = Term("back") in form.args
         distance_m = self._free_way_m(form, back) if Term("max") in form.args else _quantity(form, Unit.METRE, 1.0)
         _check_limit(form, distance_m, DISTANCE_MAX_M)
-        self.add(GoForward(-distance_m if back else distance_m))
+        if distance_m:
+            self.add(GoForward(-distance_m if back else distance_m))
 
     def _free_way_m(self, form: Term, back: bool) -> float:
         """As far as the map lets the robot go."""
@@ -98,7 +104,8 @@ class Draft:
         if not sides and math.fmod(angle_deg, 180.0):
             raise Stops(Refused(Refusal.NO_SIDE, form))
         _check_limit(form, angle_deg, TURN_MAX_DEG)
-        self.add(Turn(sides[0] if sides else Side.LEFT, angle_deg))
+        if angle_deg:
+            self.add(Turn(sides[0] if sides else Side.LEFT, angle_deg))
 
     def orient(self, form: Term) -> None:
         """``orient(target)``: look along a heading or side, or at a thing or place."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from grammar.acts import DialogueAct
-from grammar.forms import Form
+from grammar.forms import Form, Term
 from grounding import World
 from robot.geometry import Point, Pose, wrap_angle
 from robot.messages import Command, Control
@@ -45,7 +45,7 @@ class Question:
     """What Kirby asked, and what it does once it knows.
 
     ``acts`` wait for the answer, which takes the place of ``hole`` in their forms; ``candidates`` are ids of things.
-    ``commands`` wait for a yes instead, where nothing is left to be worked out.
+    ``commands`` are to be sent before, to get out of the way what keeps the robot from doing it.
     """
 
     text: str
@@ -58,11 +58,20 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Past:
-    """An instruction that was carried out: its forms with all that was left open filled in, and where it began."""
+    """An instruction that was carried out: its forms with all that was left open filled in, and where it began.
+
+    ``ids`` pair with the commands, as they were sent.
+    """
 
     forms: tuple[Form, ...]
     commands: tuple[Command, ...]
     start: Pose
+    ids: tuple[str, ...] = ()
+
+    @property
+    def form(self) -> Form:
+        """All of it as one form."""
+        return self.forms[0] if len(self.forms) == 1 else Term("seq", self.forms)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +101,9 @@ class Session:
 
     ``pointings`` are those not yet used, the newest last. ``place`` is the place last spoken of. ``name`` begins the
     id of every command: where several conversations reach one robot, each has its own. ``history`` is what was carried
-    out, the latest last; ``reason`` is why something last went otherwise, in words.
+    out, the latest last; ``reason`` is why something last went otherwise, in words; ``heard`` is what was understood of
+    what was said last, questions aside. ``holds_camera``: the view was
+    moved since the robot was last told to move.
     """
 
     state: State = State.IDLE
@@ -110,7 +121,19 @@ class Session:
     history: tuple[Past, ...] = ()
     routines: tuple[Routine, ...] = ()
     reason: str = ""
+    heard: tuple[Form, ...] = ()
     waiting: Waiting | None = None
+    holds_camera: bool = False
+
+    @property
+    def last(self) -> Past | None:
+        """The instruction that was carried out last."""
+        return self.history[-1] if self.history else None
+
+    def routine(self, name: str) -> Routine | None:
+        """The routine of that name, with or without its article: the gesture "L shape" does "the L shape"."""
+        wanted = _bare(name)
+        return next((routine for routine in self.routines if _bare(routine.name) == wanted), None)
 
     @property
     def moving(self) -> bool:
@@ -127,3 +150,7 @@ class Session:
             return ideal
         astray = here.point.distance_to(ideal.point) > _IDEAL_WITHIN_M
         return here if astray or abs(wrap_angle(here.yaw_rad - ideal.yaw_rad)) > _IDEAL_WITHIN_RAD else ideal
+
+
+def _bare(name: str) -> str:
+    return name.lower().removeprefix("the ")

@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+from grammar.acts import DialogueAct
 from grammar.forms import Form, Name, Term
 from grounding import Ambiguous, Entity, Grounded, Reason, StandsFor, Unresolved, World, resolve
 from grounding.descriptions import describe, number_of
 
 from .events import Tone
-from .leaning import leaned
-from .session import Routine
+from .leaning import unfolded
+from .session import Question, Routine
+from .table import Trigger
 from .turn import Turn
-from .wording import listed, name_entities, phrase, unresolved
+from .wording import name_entities, phrase, unresolved
 
 _HERE = frozenset({"spot", "place", "here"})
 ROUTINES_MAX = 50
@@ -24,18 +26,22 @@ def teaches(form: Form) -> bool:
     return isinstance(form, Term) and (form.pred, len(form.args)) in _LESSONS
 
 
-def teach(turn: Turn, form: Term) -> None:
-    """Remember what ``learn("the loop",A)``, ``forget("the loop")``, ``name(X,N)`` or ``is(X,Y)`` tells."""
+def teach(turn: Turn, act: DialogueAct) -> None:
+    """Remember what ``learn("the loop",A)``, ``forget("the loop")``, ``name(X,N)`` or ``is(X,Y)`` tells, or ask."""
+    form = act.form
+    assert isinstance(form, Term)
     first, *rest = form.args
     match form.pred, first, rest:
         case "learn", Name(text=name), [body]:
-            _learn(turn, name.lower(), body)
+            _learn(turn, name, body)
         case "forget", Name(text=name), []:
-            _forget(turn, name.lower())
+            _forget(turn, name)
+        case "learn", Name(text=name), [] if turn.session.last is not None:
+            _learn(turn, name, turn.session.last.form)
         case "learn", Name(text=name), []:
             turn.say(f"Tell me the steps as well: learn {name}: go forward, turn right.", Tone.REFUSAL)
         case "name" | "is", _, [meaning]:
-            _call(turn, first, meaning)
+            _call(turn, act, first, meaning)
         case _:
             turn.say(f"I can't remember that: {phrase(form)}.", Tone.REFUSAL)
 
@@ -43,25 +49,26 @@ def teach(turn: Turn, form: Term) -> None:
 # ------------------------------------------------------------------ routines
 def _learn(turn: Turn, name: str, body: Form) -> None:
     """Routines within a routine are filled in as they are now, so that none can lead back to itself."""
-    others = tuple(known for known in turn.session.routines if known.name != name)
-    filled = leaned(body, replace(turn.session, routines=others))
+    known = turn.session.routine(name)
+    others = tuple(routine for routine in turn.session.routines if routine != known)
+    filled = unfolded(body, replace(turn.session, routines=others))
     routines = (*others, Routine(name, filled))[-ROUTINES_MAX:]
     turn.update(routines=routines)
     turn.say(f"I know {name} now.")
 
 
 def _forget(turn: Turn, name: str) -> None:
-    others = tuple(known for known in turn.session.routines if known.name != name)
-    if len(others) == len(turn.session.routines):
+    routine = turn.session.routine(name)
+    if routine is None:
         turn.say(f"I don't know {name}.", Tone.REFUSAL)
         return
-    turn.update(routines=others)
+    turn.update(routines=tuple(known for known in turn.session.routines if known != routine))
     turn.say(f"I have forgotten {name}.")
 
 
 def quoted(text: str, turn: Turn) -> str:
     """What was said, with the names that were taught in quotes, so that they are read as names."""
-    names = {routine.name for routine in turn.session.routines}
+    names = {routine.name.lower() for routine in turn.session.routines}
     names |= {name.lower() for thing in turn.session.world.entities.items for name in thing.names}
     for name in sorted(names, key=len, reverse=True):
         text = re.sub(rf'(?<!["\w])({re.escape(name)})(?!["\w])', r'"\1"', text, flags=re.IGNORECASE)
@@ -69,7 +76,7 @@ def quoted(text: str, turn: Turn) -> str:
 
 
 # ------------------------------------------------------------------ things and places
-def _call(turn: Turn, what: Form, meaning: Form) -> None:
+def _call(turn: Turn, act: DialogueAct, what: Form, meaning: Form) -> None:
     if _is_here(what):
         _name_place(turn, meaning)
         return
@@ -82,11 +89,10 @@ def _call(turn: Turn, what: Form, meaning: Form) -> None:
             before = StandsFor(marker, thing.type, thing.attributes, thing.names, thing.size_m)
             (called,) = name_entities((thing,), turn.session.world)
             _stand_for(turn, before, meaning, called if isinstance(meaning, Name) else f"fiducial {marker}")
-        case Ambiguous(_, candidates):
-            names = listed(name_entities(candidates, turn.session.world), "or")
-            turn.say(f"Which one do you mean: {names}? Please point at it and say it again.", Tone.REFUSAL)
-        case Unresolved(Reason.NEEDS_POINTING):
-            turn.say("Please point at it and say it again.", Tone.REFUSAL)
+        case Ambiguous(form, candidates):
+            turn.ask_which((act,), form, candidates)
+        case Unresolved(Reason.NEEDS_POINTING, form):
+            turn.ask(Trigger.ASK_PLACE, Question("Which one? Please point at it.", (act,), form))
         case Unresolved():
             turn.say(unresolved(outcome), Tone.REFUSAL)
         case _:

@@ -10,13 +10,14 @@ from grounding import Ambiguous, Unresolved, World
 from robot.messages import encode_command
 from voxml.vocabulary import Lexicon
 
+from .corrections import corrected
 from .planning import plan
-from .plans import OPERATORS, Plan, Refusal, Refused
+from .plans import Plan, Refusal, Refused
+from .stopping import STOP, stop_first
 from .turn import Parser
-from .wording import listed, name_entities, not_understood, refused, unresolved
+from .wording import not_understood, refused, unresolved, which_one
 
 _NOWHERE = World()
-_STOP = Term("stop")
 
 
 def understand(text: str, world: World | None, lexicon: Lexicon, parse: Parser) -> dict[str, Any]:
@@ -34,7 +35,8 @@ def understand(text: str, world: World | None, lexicon: Lexicon, parse: Parser) 
             span=list(acts.span), expected=list(acts.expected), nearest=acts.nearest,
         )  # fmt: skip
     form = str(acts[0].form) if len(acts) == 1 else str(Term("seq", tuple(act.form for act in acts)))
-    instructions = tuple(act for act in acts if act.function in (Function.INSTRUCT, Function.CORRECT))
+    obeyed = stop_first(acts, text, lexicon)
+    instructions = tuple(act for act in obeyed if act.function in (Function.INSTRUCT, Function.CORRECT))
     act = (instructions or acts)[0].function.value
     repaired = next((each.repaired for each in acts if each.repaired is not None), None)
     if repaired is not None:
@@ -53,7 +55,7 @@ def _planned(
         case Ambiguous() | Unresolved() if world is None:
             return _record(text, "needs_world", act, form, None)
         case Ambiguous(_, candidates):
-            reason = f"Which one: {listed(name_entities(candidates, world or _NOWHERE))}?"
+            reason = which_one(candidates, world or _NOWHERE)
             return _record(text, "ambiguous", act, form, None, reason=reason)
         case Unresolved():
             return _record(text, "needs_world", act, form, None, reason=unresolved(outcome))
@@ -66,10 +68,8 @@ def _planned(
 
 
 def _to_be_done(act: DialogueAct, lexicon: Lexicon) -> Form:
-    """An instruction's form; a correction that says only what to change ("no, left") stops what is being done."""
-    if act.function is Function.INSTRUCT or not isinstance(act.form, Term):
-        return act.form if act.function is Function.INSTRUCT else _STOP
-    return act.form if act.form.pred in lexicon.programs or act.form.pred in OPERATORS else _STOP
+    """An instruction's form; of a correction what it comes to with nothing said before."""
+    return act.form if act.function is Function.INSTRUCT else corrected(act.form, None, lexicon) or STOP
 
 
 def _record(

@@ -48,6 +48,11 @@ def listed(items: Sequence[str], word: str = "or") -> str:
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {word} {items[-1]}"
 
 
+def which_one(candidates: Sequence[Entity], world: World) -> str:
+    """The question that several things leave open."""
+    return f"Which one: {listed(name_entities(candidates, world))}?"
+
+
 # ------------------------------------------------------------------ forms
 def phrase(form: Form) -> str:
     """A noun phrase in English: ``the(first(red(block),on(right)))`` -> ``the first red block on the right``."""

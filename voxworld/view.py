@@ -282,7 +282,7 @@ class VoxWorld:
             self._point(self._who(event.client_id), ray)
 
     def _gesture(self, client_id: int | None, kind: GestureKind) -> None:
-        self._host.deliver(Gesture(kind, self._host.clock(), speaker=self._who(client_id)))
+        self._host.deliver(Gesture(kind, self._host.clock(), speaker=self._who(client_id), at_view=True))
 
     def _cancel(self, client_id: int | None, errand: str) -> None:
         self._host.cancel(errand, self._who(client_id))

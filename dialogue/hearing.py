@@ -1,0 +1,123 @@
+"""What people say: an utterance's acts, each to where it is answered or obeyed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+
+from grammar.acts import DialogueAct, Function, NotUnderstood
+from grammar.forms import Term
+
+from .answers import answer, ask_again, no, yes
+from .corrections import said_instead
+from .events import Tone, Utterance
+from .fragments import said_fragment
+from .instructions import ask_kirby, obey, tell_kirby
+from .session import Question
+from .stopping import STOP, stop_first
+from .table import Trigger
+from .teaching import quoted, teaches
+from .turn import Turn
+from .wording import not_understood
+
+_CONFIDENT = 0.6
+"""What a recogniser is less sure of than this is confirmed before anything moves."""
+_LEANING = frozenset({Function.FRAGMENT, Function.CORRECT})
+_CANCEL = Term("cancel")
+"""While nothing moves it can only mean what Kirby asks: "never mind"."""
+
+
+def hear(turn: Turn, event: Utterance) -> None:
+    """Take in an utterance. Whatever else was said, and however unsure the reading, stopping comes first."""
+    acts = _read(turn, event.text)
+    if isinstance(acts, NotUnderstood):
+        turn.update(heard=())
+        turn.say(not_understood(event.text, acts), Tone.REFUSAL)
+        if turn.session.question is not None:
+            ask_again(turn)
+        return
+    if told := tuple(act.form for act in acts if act.function is not Function.QUESTION):
+        turn.update(heard=told)
+    acts = stop_first(acts, event.text, turn.lexicon)
+    if acts[0].form == STOP and acts[0].function is Function.INSTRUCT:
+        obey(turn, acts[:1], event.time_s)
+        acts = acts[1:]
+    elif event.confidence < _CONFIDENT:
+        acts = tuple(replace(act, repaired=act.repaired or event.text) for act in acts)
+    _do_acts(turn, acts, event.time_s)
+
+
+def _read(turn: Turn, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
+    """What was said; where that makes no sense as it stands, with the names that were taught read as names."""
+    acts = turn.parse(text)
+    if not _is_sure(acts) and (named := quoted(text, turn)) != text:
+        again = turn.parse(named)
+        return again if _is_sure(again) else acts
+    return acts
+
+
+def _is_sure(acts: tuple[DialogueAct, ...] | NotUnderstood) -> bool:
+    return not isinstance(acts, NotUnderstood) and all(act.repaired is None for act in acts)
+
+
+def _do_acts(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
+    """Instructions are planned together; what leans on them comes after those before it."""
+    instructions: tuple[DialogueAct, ...] = ()
+    for act in acts:
+        if act.function is Function.INSTRUCT:
+            instructions = (*instructions, act)
+            continue
+        if act.function in _LEANING and instructions:
+            _obey(turn, instructions, time_s)
+            instructions = ()
+        _respond(turn, act, time_s)
+    if instructions:
+        _obey(turn, instructions, time_s)
+
+
+def _obey(turn: Turn, instructions: tuple[DialogueAct, ...], time_s: float) -> None:
+    withdrawn = [act.form for act in instructions] == [_CANCEL] and not turn.session.moving
+    if withdrawn and turn.session.question is not None:
+        no(turn, time_s)
+    else:
+        obey(turn, instructions, time_s)
+
+
+def _respond(turn: Turn, act: DialogueAct, time_s: float) -> None:
+    """An act that orders nothing by itself."""
+    respond = _RESPONSES.get(act.function)
+    if respond is not None:
+        respond(turn, act, time_s)
+    elif answer(turn, act.form, time_s, act.repaired):
+        pass
+    elif act.function is Function.CORRECT:
+        said_instead(turn, act, time_s)
+    elif turn.session.question is not None:
+        ask_again(turn)
+    elif act.function is Function.FRAGMENT:
+        said_fragment(turn, act, time_s)
+    else:
+        turn.say("I understand the words, but not what you want me to do.", Tone.REFUSAL)
+
+
+def _inform(turn: Turn, act: DialogueAct, time_s: float) -> None:
+    if not teaches(act.form):
+        turn.say("Okay.")
+    elif act.repaired is not None:
+        sure = replace(act, repaired=None)
+        turn.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {act.repaired}?", (sure,)))
+    else:
+        tell_kirby(turn, act, time_s)
+
+
+_RESPONSES: Mapping[Function, Callable[[Turn, DialogueAct, float], None]] = {
+    Function.CONFIRM: lambda turn, act, time_s: yes(turn, time_s, act.repaired),
+    Function.DENY: lambda turn, act, time_s: no(turn, time_s, act.repaired),
+    Function.GREET: lambda turn, act, time_s: turn.say("Hello."),
+    Function.THANK: lambda turn, act, time_s: turn.say("You're welcome."),
+    Function.BYE: lambda turn, act, time_s: turn.say("Goodbye."),
+    Function.ACKNOWLEDGE: lambda turn, act, time_s: None,
+    Function.QUESTION: ask_kirby,
+    Function.INFORM: _inform,
+}
+"""What is answered in the same way whatever was said before."""
