@@ -121,6 +121,7 @@ class OccupancyGrid:
         ends = ends[:, echo]
         change.ravel()[self._flat_cells(ends, patch)] = HIT_LOG_ODDS
         cells = self._view(patch)
+        _spare_skimmed(change, cells, self._flat_cells(origin, patch)[0])
         known_before = np.count_nonzero(cells)
         np.clip(cells + change, MIN_LOG_ODDS, MAX_LOG_ODDS, out=cells)
         # Hits and misses could cancel to exactly 0, which stands for unknown: what was seen stays known.
@@ -167,6 +168,22 @@ class OccupancyGrid:
             self._cells
         )
         self._room, self._cells = room, cells
+
+
+def _spare_skimmed(change: NDArray[np.float32], cells: NDArray[np.float32], robot: int) -> None:
+    """Take back the misses of occupied cells that beams did not pass on both sides, seen from the cell ``robot``.
+
+    Beams that skim along a surface pass its cells on one side only: they say nothing about it.
+    """
+    row, column = np.nonzero((cells > OCCUPIED_LOG_ODDS) & (change < 0.0))
+    away_rows, away_columns = row - robot // cells.shape[1], column - robot % cells.shape[1]
+    farther = np.maximum(np.maximum(np.abs(away_rows), np.abs(away_columns)), 1)
+    aside_rows = np.rint(-away_columns / farther).astype(np.intp)
+    aside_columns = np.rint(away_rows / farther).astype(np.intp)
+    both = (change[row + aside_rows, column + aside_columns] < 0.0) & (
+        change[row - aside_rows, column - aside_columns] < 0.0
+    )
+    change[row[~both], column[~both]] = 0.0
 
 
 def _incidence(
