@@ -30,6 +30,11 @@ def _again_often(that: Form, times: Form | Quantity, *mark: Form) -> Act:
     return Function.FRAGMENT, Term("repeat", (times, _AGAIN))
 
 
+def _forbidden(no: Form, what: Form) -> Act:
+    """ "do not turn left"; what may not move at all stops."""
+    return Function.INSTRUCT, _STOP if what == Term("go") else Term("not", (what,))
+
+
 def _conditional(marker: Form, condition: Form, core: Form, *otherwise: Form) -> Form:
     """ "if C, A, otherwise B", "when C, A", "unless C, A"."""
     if pred_of(marker) == "unless":
@@ -54,11 +59,12 @@ ACT_ACTIONS: dict[str, Action] = {
     "act_halt": _says(Function.INSTRUCT, "stop"),
     "act_greet": _of(Function.GREET),
     "act_thank": _of(Function.THANK),
+    "act_thank_for": lambda thanks, what: (Function.THANK, thanks),
     "act_bye": _of(Function.BYE),
     "act_acknowledge": _of(Function.ACKNOWLEDGE),
     "act_praise": lambda praise, event: (Function.ACKNOWLEDGE, Term("ok")),
     "act_answer": _of(Function.ANSWER),
-    "act_forbid": lambda no, what: (Function.INSTRUCT, Term("not", (what,))),
+    "act_forbid": _forbidden,
     "act_again": _says(Function.FRAGMENT, "again"),
     "act_again_often": _again_often,
     "act_suggest": lambda about, what: (Function.FRAGMENT, what),
@@ -84,7 +90,7 @@ COMMAND_ACTIONS: dict[str, Action] = {
     "until_first_marked": lambda marker, condition, mark, core: _until(condition, core),
     "before_first": lambda before, later, core: _sequence(core, later),
     "before_first_marked": lambda before, later, mark, core: _sequence(core, later),
-    "before_last": lambda core, before, later: _sequence(core, later),
+    "before_last": lambda core, before, later: core if core == _STOP else _sequence(core, later),
     "after_first": lambda after, first, core: _sequence(first, core),
     "after_first_marked": lambda after, first, mark, core: _sequence(first, core),
     "after_last": lambda core, after, first: _sequence(first, core),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from voxml.schema import Argument, ProgramEntry
@@ -17,9 +17,7 @@ _UNIT_TYPES = {Unit.METRE: "length", Unit.DEGREE: "angle", Unit.SECOND: "duratio
 _TYPE_UNITS = {name: unit for unit, name in _UNIT_TYPES.items()}
 _QUANTITIES = frozenset(_TYPE_UNITS)
 _THINGS = frozenset({"physobj", "location", "human", "artifact", "any"})
-_OPERATORS = frozenset({"and", "or", "not"})
-
-
+_ON_THE_WAY = frozenset({"via", "through"})
 BARE_DEGREES_MIN = 5  # nobody means degrees by "turn left two"
 
 
@@ -87,8 +85,10 @@ class ArgumentFitter:
         paths = [index for index, arg in enumerate(args) if arg.kind is Kind.PATH]
         if len(paths) < 2:
             return None
-        first = self.program(readings, args[: paths[1]])
-        rest = self.program(readings, args[paths[1] :])
+        legs = (args[: paths[1]], args[paths[1] :])
+        if _is_on_the_way(args[paths[1]]) and not _is_on_the_way(args[paths[0]]):
+            legs = (legs[1], legs[0])
+        first, rest = (self.program(readings, leg) for leg in legs)
         return Term("seq", (first, *(rest.args if isinstance(rest, Term) and rest.pred == "seq" else (rest,))))
 
     def implied(self, args: Args, preds: tuple[str, ...]) -> Form | None:
@@ -113,7 +113,7 @@ class ArgumentFitter:
             elif arg.kind is Kind.REPEAT:
                 repeats.append(arg.form)
             else:
-                self._bind(entry, bound, arg)
+                self._bind(reading, bound, arg)
         _take_modifiers(entry, bound)
         missing = next((slot for slot in _slots(entry) if _needed(slot) and slot.variable not in bound), None)
         if missing is not None:
@@ -127,9 +127,12 @@ class ArgumentFitter:
             form = Term("repeat", (times, form))
         return form
 
-    def _bind(self, entry: ProgramEntry, bound: dict[str, Form], arg: Arg) -> None:
+    def _bind(self, reading: Reading, bound: dict[str, Form], arg: Arg) -> None:
+        entry = reading.entry
+        if reading.bare is False and arg.kind in (Kind.PHRASE, Kind.WAY):
+            raise Refused(" or ".join(_slots(entry)[0].markers))
         for slot in _slots(entry):
-            value = self._value(slot, arg)
+            value = self._value(slot if reading.bare is None else replace(slot, bare=reading.bare), arg)
             if value is None:
                 continue
             if slot.variable not in bound:
@@ -204,6 +207,11 @@ def head_noun(form: Form) -> str:
     while isinstance(form, Term) and form.args:
         form = form.args[0]
     return form.pred if isinstance(form, Term) else ""
+
+
+def _is_on_the_way(arg: Arg) -> bool:
+    """Whether a path is gone before the goal that is named: "to the kitchen via the hallway"."""
+    return isinstance(arg.form, Term) and arg.form.pred in _ON_THE_WAY
 
 
 def _take_modifiers(entry: ProgramEntry, bound: dict[str, Form]) -> None:

@@ -6,7 +6,7 @@ from voxml.schema import RelationEntry
 from voxml.terms import Form, Term
 from voxml.vocabulary import Lexicon
 
-_CLASSES = ("SIDE", "AXIS", "HEADING")
+_CLASSES = ("SIDE", "AXIS", "HEADING", "PLACE")
 
 
 class Completer:
@@ -21,14 +21,24 @@ class Completer:
 
         Amounts are not taken over: "turn left ten degrees and right" says of the right turn no more than that.
         """
-        if not isinstance(before, Term):
-            return None
-        if before.pred == "seq" and before.args:
-            return self.completed(before.args[-1], fragment)
-        kind = self._kind(fragment)
-        if kind is None or not any(self._kind(arg) == kind for arg in before.args):
-            return None
-        return Term(before.pred, (fragment,))
+        match before, fragment:
+            case Term("seq", (*_, last)), _:
+                return self.completed(last, fragment)
+            case Term() as program, Term("again", (changed,)):  # "a left and another left"
+                return self._with(program, changed)
+            case Term() as program, _:
+                return self._with(program, fragment)
+        return None
+
+    def _with(self, program: Term, part: Form) -> Form | None:
+        kind = self._kind(part)
+        for arg in program.args:
+            if kind is not None and self._kind(arg) == kind:
+                return Term(program.pred, (part,))
+            match arg:
+                case Term(relation, (place,)) if kind == "PLACE" and relation in self._paths and place in self._kinds:
+                    return Term(program.pred, (Term(relation, (part,)),))  # "go there and then there"
+        return None
 
     def _kind(self, form: Form) -> str | None:
         if isinstance(form, Term) and form.args and form.pred in self._paths:

@@ -62,6 +62,10 @@ class Lattice:
             known = self._categories[at] = frozenset(edge.terminal for edge in self.edges(at) if edge.terminal)
         return known
 
+    def is_reply(self, at: int) -> bool:
+        """Whether the word can be all of an answer, with something else behind it: "no turn left"."""
+        return self._words.is_reply(self.texts[at])
+
     def may_end(self, at: int) -> bool:
         """Whether a clause may end before ``at``: at a mark, a connective, another's beginning, behind a reply."""
         if at >= len(self.texts) or self.texts[at] in MARKS:

@@ -21,6 +21,8 @@ class Neighbours:
     def __init__(self, lexicon: Lexicon) -> None:
         closed = lexicon.closed
         self._copulas = frozenset(closed.table("BE"))
+        self._negations = frozenset(closed.table("negation"))
+        self._refusing = frozenset(word.words[0] for word in closed.words_of("NO"))
         self._of = frozenset(closed.table("OF"))
         self._addresses = frozenset(closed.table("address"))
         self._refusals = frozenset(closed.table("NO"))
@@ -40,6 +42,8 @@ class Neighbours:
 
     def agreeing(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
         """Those of the edges that agree with the words around, and what these add."""
+        if texts[at] in self._refusing:
+            found = tuple(edge for edge in found if not self._forbids(edge, texts, at))
         if texts[at] not in self._delicate and self._of.isdisjoint(texts):
             return found
         if not at or texts[at - 1] in MARKS:
@@ -53,6 +57,11 @@ class Neighbours:
         if word in self._determiners and before in self._nouns:  # "exit the building" is no building
             found = tuple(edge for edge in found if edge.terminal is not None)
         return self._qualities(self._before_of(found, texts, at), texts, at)
+
+    def _forbids(self, edge: Edge, texts: Sequence[str], at: int) -> bool:
+        """Whether a "no, do not" goes on with what not to do: that is no answer."""
+        end = at + edge.length
+        return edge.terminal == "NO" and texts[end - 1] in self._negations and not _ends(texts, end)
 
     def _opening(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
         """At the beginning: "no" is an answer, "robot" is spoken to, "first" counts, "right" opens."""

@@ -84,6 +84,8 @@ QUESTION_ACTIONS: dict[str, Action] = {
     "q_is": lambda be, this, what: Term("is", (this, what)),
     "q_is_last": _is_last,
     "q_is_where": lambda be, what, place: Term("is", (what, place)),
+    "q_able": _property("can", 1),
+    "q_able_to": lambda able, what: Term("can", (Term(pred_of(able), (what,)),)),
     "q_know_what": _property("what", 2),
     "q_know_where": _property("where", 2),
     "q_know_far": _property("distance", 2),

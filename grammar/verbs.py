@@ -12,6 +12,7 @@ from .machine import Refused
 from .phrases import pred_of
 
 REPEATS_MAX = 20
+DEGREES_ALONE_MIN = 45
 _SIDES = (Term("left"), Term("right"))
 _BEHIND = Term("behind")
 _VERBLESS = ("turn", "go", "sidestep")  # what arguments alone can mean
@@ -35,7 +36,7 @@ class VerbActions:
             return self._done(readings, events[0], rest)
         if not isinstance(readings, Term):
             return self._fitter.program(readings, rest)
-        if not any(arg.kind is not Kind.NUMBER for arg in rest):  # "take five" is nothing to do
+        if not rest or (len(rest) == 1 and _is_small(rest[0])):
             raise Refused("what to do")
         return self._fitter.program(self._readings(*(pred_of(arg) for arg in readings.args)), rest)
 
@@ -51,6 +52,10 @@ class VerbActions:
         if any(arg.kind in (Kind.PHRASE, Kind.EVENT, Kind.PATH) for arg in before):
             raise Refused("a verb first")
         return self.verb(readings, (*before, *args))
+
+    def verb_sized(self, readings: Any, mark: Form, amount: Form, event: tuple[Reading, ...]) -> Form:
+        """ "drive in a two metre square": the figure says what to do, the verb no more."""
+        return self._fitter.program(event, (Arg(Kind.QUANTITY, amount),))
 
     def light_bare(self, lead: Form, args: Args) -> Form:
         """ "can you ... left ninety degrees"."""
@@ -124,6 +129,11 @@ def _side_of(arg: Arg) -> Form | None:
         case Kind.OF, Term(_, (Term("behind", (Term("you"),)),)):
             return _BEHIND
     return None
+
+
+def _is_small(arg: Arg) -> bool:
+    """Whether a number is too small to be an angle by itself: "do a one eighty", but not "take five"."""
+    return arg.kind is Kind.NUMBER and isinstance(arg.form, Quantity) and arg.form.value < DEGREES_ALONE_MIN
 
 
 def _is_count(form: Form) -> bool:

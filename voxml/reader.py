@@ -184,6 +184,7 @@ def _synonym(element: Element) -> Synonym:
         text,
         None if kind is None else WordKind(_allowed(kind, tuple(k.value for k in WordKind), "<Synonym Kind>")),
         None if gives is None else _formula(parse_form, "Synonym Gives", gives),
+        None if element.get("Bare") is None else _flag(element, "Bare", True),
     )
 
 

@@ -50,12 +50,14 @@ class FormKind(Enum):
 class Synonym:
     """Another word for the predicate; ``kind`` only where it differs from what the entry's type says.
 
-    ``gives`` is an argument that the word says by itself: "back up" is ``go`` with ``back``.
+    ``gives`` is an argument that the word says by itself: "back up" is ``go`` with ``back``. ``bare`` says, other than
+    the argument does, whether the word takes a thing without a marker: "photograph it", but "turn to it".
     """
 
     text: str
     kind: WordKind | None = None
     gives: Form | None = None
+    bare: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)

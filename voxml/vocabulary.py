@@ -34,10 +34,14 @@ _Entry = TypeVar("_Entry", ObjectEntry, ProgramEntry, AttributeEntry, RelationEn
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A verb read as one program, with the argument that the word says by itself, if any."""
+    """A verb read as one program, with the argument that the word says by itself, if any.
+
+    ``bare`` says whether it takes a thing without a marker, where it differs from its argument.
+    """
 
     entry: ProgramEntry
     gives: Form | None = None
+    bare: bool | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +134,7 @@ def _words(entry: Entry, own: bool) -> tuple[Synonym, ...]:
 
 def _inflected(entry: Entry, word: Synonym) -> Iterator[Sense]:
     phrase, kind = word.text.lower(), word.kind
-    readings = (Reading(entry, word.gives),) if isinstance(entry, ProgramEntry) else ()
+    readings = (Reading(entry, word.gives, word.bare),) if isinstance(entry, ProgramEntry) else ()
     irregular = {(form.of, form.kind): form.value for form in entry.lex.forms}
     base = tuple(phrase.split())
 
@@ -151,7 +155,8 @@ def _inflected(entry: Entry, word: Synonym) -> Iterator[Sense]:
             yield sense("NOUN", None, term)
             yield sense("NOUNS", FormKind.PLURAL, Term("plural", (term,)))
         case AttributeEntry():
-            yield from _attribute_senses(entry, base, sense("", FormKind.SUPERLATIVE, term).words, kind)
+            compared = (sense("", form, term).words for form in (FormKind.SUPERLATIVE, FormKind.COMPARATIVE))
+            yield from _attribute_senses(entry, base, tuple(compared), kind)
         case RelationEntry():
             yield sense("PATH" if entry.relation_class == "force_dynamic" else "LOC", None, term)
         case FunctionEntry():
@@ -159,8 +164,9 @@ def _inflected(entry: Entry, word: Synonym) -> Iterator[Sense]:
 
 
 def _attribute_senses(
-    entry: AttributeEntry, base: tuple[str, ...], superlative: tuple[str, ...], kind: WordKind | None
+    entry: AttributeEntry, base: tuple[str, ...], compared: tuple[tuple[str, ...], ...], kind: WordKind | None
 ) -> Iterator[Sense]:
+    """ "the smaller one" is the smallest of those that are meant."""
     term = Term(entry.lex.pred)
     if any("event" in arg.types for arg in entry.args) or kind is WordKind.ADVERB:
         yield Sense(base, "MANNER", term)
@@ -169,7 +175,8 @@ def _attribute_senses(
     else:
         yield Sense(base, "ADJECTIVE", term)
         if entry.scale == "rational":
-            yield Sense(superlative, "ORDINAL", Term(inflect(entry.lex.pred, FormKind.SUPERLATIVE, {})))
+            superlative = Term(inflect(entry.lex.pred, FormKind.SUPERLATIVE, {}))
+            yield from (Sense(words, "ORDINAL", superlative) for words in compared)
 
 
 def _closed_senses(closed: ClosedClasses) -> Iterator[Sense]:

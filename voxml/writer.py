@@ -18,6 +18,7 @@ from .schema import (
     ObjectEntry,
     ProgramEntry,
     RelationEntry,
+    Synonym,
 )
 
 _HEADER = '<?xml version="1.0" encoding="utf-8"?>'
@@ -69,17 +70,19 @@ def _lex(lex: Lex) -> Any:
     spoken: _Attributes = () if lex.spoken else (("Spoken", "false"),)
     parts: list[Any] = [_leaf("Pred", spoken, lex.pred), _leaf("Type", text="*".join(lex.types))]
     if lex.synonyms:
-        parts.append(
-            ("Synonyms", [_leaf("Synonym", _synonym(each.kind, each.gives), each.text) for each in lex.synonyms])
-        )
+        parts.append(("Synonyms", [_leaf("Synonym", _synonym(each), each.text) for each in lex.synonyms]))
     if lex.forms:
         forms = [(("Of", form.of), ("Kind", form.kind.value), ("Value", form.value)) for form in lex.forms]
         parts.append(("Forms", [_leaf("Form", form) for form in forms]))
     return "Lex", parts
 
 
-def _synonym(kind: Any, gives: Any) -> _Attributes:
-    said = (("Kind", None if kind is None else kind.value), ("Gives", None if gives is None else str(gives)))
+def _synonym(word: Synonym) -> _Attributes:
+    said = (
+        ("Kind", None if word.kind is None else word.kind.value),
+        ("Gives", None if word.gives is None else str(word.gives)),
+        ("Bare", None if word.bare is None else str(word.bare).lower()),
+    )
     return tuple((key, value) for key, value in said if value is not None)
 
 
