@@ -8,6 +8,7 @@ from voxml.vocabulary import Lexicon, load_lexicon
 
 from .acts import DialogueAct, Function, NotUnderstood
 from .forms import Form, Name, Quantity, Term, Unit, parse_form
+from .guessing import Proposer
 from .mending import Mender
 from .reader import Reader
 
@@ -17,6 +18,7 @@ __all__ = [
     "Function",
     "Name",
     "NotUnderstood",
+    "Proposer",
     "Quantity",
     "Term",
     "Unit",
@@ -25,16 +27,19 @@ __all__ = [
 ]
 
 
-def parse(text: str, lexicon: Lexicon | None = None, language: str = "en") -> tuple[DialogueAct, ...] | NotUnderstood:
+def parse(
+    text: str, lexicon: Lexicon | None = None, language: str = "en", proposer: Proposer | None = None
+) -> tuple[DialogueAct, ...] | NotUnderstood:
     """The acts of an utterance, or where it went wrong.
 
-    What the grammar cannot read but may mean stop, stops; where words were repaired the acts say so, to be confirmed.
+    What the grammar cannot read but may mean stop, stops; where words were repaired, or the reading is one that the
+    ``proposer`` guessed, the acts say so, to be confirmed.
     ``language`` names the grammar; the lexicon must be in its words. The reader for a lexicon is built at its first use
     (about 0.2 s) and kept.
     """
     words = lexicon or load_lexicon()
     reading = _reader(words, language).read(text)
-    return _mender(words, language).mend(text, reading) if isinstance(reading, NotUnderstood) else reading
+    return _mender(words, language).mend(text, reading, proposer) if isinstance(reading, NotUnderstood) else reading
 
 
 @lru_cache(maxsize=8)
@@ -44,4 +49,4 @@ def _reader(lexicon: Lexicon, language: str) -> Reader:
 
 @lru_cache(maxsize=8)
 def _mender(lexicon: Lexicon, language: str) -> Mender:
-    return Mender(lexicon, _reader(lexicon, language).read)
+    return Mender(lexicon, _reader(lexicon, language))

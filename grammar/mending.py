@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from dataclasses import replace
 
 from voxml.terms import Term
 from voxml.vocabulary import Lexicon
 
 from .acts import DialogueAct, Function, NotUnderstood
+from .guessing import Guesser, Proposer
 from .nearest import Nearest
+from .reader import Reader
 from .spelling import Speller
 
 Reading = tuple[DialogueAct, ...] | NotUnderstood
@@ -21,19 +22,20 @@ _WORD = re.compile(r"[^\W\d_]+(?:'[^\W\d_]+)*|[?]")
 
 
 class Mender:
-    """Second thoughts about utterances, with the words of one lexicon; ``read`` is the grammar's reading of a text."""
+    """Second thoughts about utterances, with the words of one lexicon; ``reader`` is the grammar's."""
 
-    def __init__(self, lexicon: Lexicon, read: Callable[[str], Reading]) -> None:
+    def __init__(self, lexicon: Lexicon, reader: Reader) -> None:
         closed = lexicon.closed
-        self._read = read
+        self._read = reader.read
+        self._guesser = Guesser(lexicon, reader)
         self._speller = Speller(lexicon)
         self._nearest = Nearest(lexicon)
         self._stop_words = frozenset(closed.table("stop_word"))
         self._no_stop = frozenset(closed.table("no_stop"))
         self._determiners = frozenset(" ".join(word.words) for word in closed.words_of("stop_object"))
 
-    def mend(self, text: str, failure: NotUnderstood) -> Reading:
-        """Stop at once where that may be meant; a repaired reading, to be confirmed; or the failure with a hint."""
+    def mend(self, text: str, failure: NotUnderstood, proposer: Proposer | None = None) -> Reading:
+        """Stop at once where that may be meant; a repaired or guessed reading, to be confirmed; or the failure."""
         if len(text) > MENDED_MAX_CHARS:
             return failure
         proposals = tuple(self._speller.proposals(text))
@@ -43,7 +45,8 @@ class Mender:
             reading = self._read(proposal)
             if isinstance(reading, tuple):
                 return tuple(replace(act, span=(0, len(text)), repaired=proposal) for act in reading)
-        return replace(failure, nearest=self._nearest(text))
+        guessed = None if proposer is None else self._guesser.guess(text, proposer)
+        return guessed or replace(failure, nearest=self._nearest(text))
 
     def _may_mean_stop(self, text: str) -> bool:
         """A stop word that is neither denied, asked about, told of, nor has another thing for its object."""

@@ -60,11 +60,19 @@ class Sampler:
         Raises:
             RuntimeError: the grammar makes none, whatever is tried.
         """
+        text, (function, form) = self._sampled("act")
+        return Sample(text, function, form)
+
+    def instruction(self) -> Sample:
+        """One sentence with a verb that asks for one thing. Raises as `sample`."""
+        text, form = self._sampled("vp")
+        return Sample(text, Function.INSTRUCT, form)
+
+    def _sampled(self, symbol: str) -> tuple[str, Any]:
         for _ in range(ATTEMPTS_MAX):
-            part = self._symbol("act", 0)
+            part = self._symbol(symbol, 0)
             if part is not None and len(part.words) <= WORDS_MAX:
-                function, form = part.value
-                return Sample(" ".join(part.words), function, form)
+                return " ".join(part.words), part.value
         raise RuntimeError("the grammar makes no sentence")
 
     def _symbol(self, symbol: str, depth: int) -> _Part | None:

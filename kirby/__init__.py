@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         Utterance,
         WorldUpdate,
     )
+    from grammar import Proposer
     from grounding import Entities, Entity, StandsFor, World
     from robot.geometry import Point, Pose, Segment
     from robot.messages import Command, Feedback, FeedbackCode, decode_command, encode_command, feedback
@@ -38,6 +39,7 @@ if TYPE_CHECKING:
     from voxml.vocabulary import Lexicon, load_lexicon
 
     from .agent import Agent, RobotPort, understand
+    from .proposer import LanguageModel
 
 __all__ = [
     "Agent",
@@ -52,6 +54,7 @@ __all__ = [
     "GestureKind",
     "Highlight",
     "KirbyError",
+    "LanguageModel",
     "Lexicon",
     "MoveCamera",
     "Output",
@@ -61,6 +64,7 @@ __all__ = [
     "PointedRay",
     "Pointing",
     "Pose",
+    "Proposer",
     "RobotFeedback",
     "RobotPort",
     "Say",
@@ -82,7 +86,9 @@ __all__ = [
 
 _HOMES = (
     "kirby.agent",
+    "kirby.proposer",
     "dialogue.events",
+    "grammar",
     "grounding",
     "robot.geometry",
     "robot.messages",

@@ -34,7 +34,7 @@ from dialogue.manager import DialogueManager
 from dialogue.session import Session, Task
 from dialogue.table import Activity, State
 from dialogue.understanding import understand as _understand
-from grammar import parse
+from grammar import DialogueAct, NotUnderstood, Proposer, parse
 from grounding.world import World
 from robot.geometry import Point, Pose
 from robot.messages import Command, Feedback, Fiducials, Map, Odom
@@ -48,14 +48,19 @@ class RobotPort(Protocol):
     def send(self, commands: tuple[Command, ...], ids: tuple[str, ...]) -> None: ...
 
 
-def understand(text: str, world: Scene | World | None = None, lexicon: Lexicon | None = None) -> dict[str, Any]:
+def understand(
+    text: str,
+    world: Scene | World | None = None,
+    lexicon: Lexicon | None = None,
+    proposer: Proposer | None = None,
+) -> dict[str, Any]:
     """What Kirby makes of one utterance by itself: see `dialogue.understanding.understand`.
 
     A scene stands for a world that is known in full.
     """
     words = lexicon or load_lexicon()
     model = World.explored(world) if isinstance(world, Scene) else world
-    return _understand(text, model, words, lambda said: parse(said, words))
+    return _understand(text, model, words, lambda said: parse(said, words, proposer=proposer))
 
 
 class Agent:
@@ -63,7 +68,8 @@ class Agent:
 
     ``world`` says what each fiducial stands for (a scene: nothing is seen yet), or gives the whole world model.
     ``clock`` is read only where a call gives no ``time_s``. ``name`` begins every command's id: give each conversation
-    its own where several reach one robot. Every method that takes something in returns the outputs.
+    its own where several reach one robot. ``proposer``, such as a `LanguageModel`, guesses what is meant where the
+    grammar has no reading; a guess is asked about first. Every method that takes something in returns the outputs.
     """
 
     def __init__(
@@ -73,15 +79,20 @@ class Agent:
         robot: RobotPort | None = None,
         clock: Callable[[], float] = time.monotonic,
         name: str = "k",
+        proposer: Proposer | None = None,
     ) -> None:
         model = World.unexplored(world) if isinstance(world, Scene) else world or World()
         self._lexicon = lexicon or load_lexicon()
+        self._proposer = proposer
         self._manager = self._manage(Session(world=model, name=name))
         self._robot = robot
         self._clock = clock
 
     def _manage(self, session: Session) -> DialogueManager:
-        return DialogueManager(self._lexicon, lambda text: parse(text, self._lexicon), session)
+        return DialogueManager(self._lexicon, self._parse, session)
+
+    def _parse(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
+        return parse(text, self._lexicon, proposer=self._proposer)
 
     # -------------------------------------------------------------- in
     def hear(self, text: str, time_s: float | None = None, confidence: float = 1.0) -> tuple[Output, ...]:
@@ -148,6 +159,7 @@ class Agent:
         lexicon: Lexicon | None = None,
         robot: RobotPort | None = None,
         clock: Callable[[], float] = time.monotonic,
+        proposer: Proposer | None = None,
     ) -> Agent:
         """The agent that `to_json` wrote.
 
@@ -158,7 +170,7 @@ class Agent:
             data = json.loads(text)
         except (json.JSONDecodeError, RecursionError):
             raise UnreadableError("a session is JSON, and this is not") from None
-        agent = cls(None, lexicon, robot, clock)
+        agent = cls(None, lexicon, robot, clock, proposer=proposer)
         agent._manager = agent._manage(from_data(data, Session))
         return agent
 

@@ -177,6 +177,17 @@ def lexicon(
     run_lexicon(action, word, folder)
 
 
+@app.command(epilog="Example: kirby train language")
+def train(
+    what: Annotated[str, typer.Argument(metavar="language", help="What to train.")],
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Where to, if not for Kirby itself.")] = None,
+) -> None:
+    """Train the model that guesses what was meant in words Kirby does not know; it asks before it acts on a guess."""
+    from .train import run_train
+
+    run_train(what, out)
+
+
 @app.command(epilog="Example: kirby bench simulation --json")
 def bench(
     name: Annotated[str | None, typer.Argument(help="Which benchmark; without it, their names.")] = None,

@@ -9,6 +9,7 @@ from typing import Any
 from voxml.vocabulary import load_lexicon
 
 from .agent import understand
+from .proposer import trained_here
 
 Record = dict[str, Any]
 
@@ -26,7 +27,7 @@ def reader(world: str | None) -> Callable[[str], Record]:
         from .worlds import find_world
 
         known = World.explored(find_world(world))
-    return partial(understand, world=known, lexicon=load_lexicon())
+    return partial(understand, world=known, lexicon=load_lexicon(), proposer=trained_here())
 
 
 def show_record(record: Record) -> str:

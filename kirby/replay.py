@@ -20,6 +20,7 @@ from .agent import Agent
 from .conversation import Conversation, Happening
 from .errors import KirbyError
 from .link import Found, Garbled, Lost
+from .proposer import trained_here
 
 
 @contextmanager
@@ -69,7 +70,7 @@ def replay(path: Path) -> bool:
     for number, row in _rows(path):
         try:
             if agent is None:
-                agent = Agent.from_json(json.dumps(row["session"]))
+                agent = Agent.from_json(json.dumps(row["session"]), proposer=trained_here())
                 continue
             got = _outputs(agent.handle(from_data(row["event"], Event)))  # type: ignore[arg-type]
             expected = row["outputs"]

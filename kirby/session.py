@@ -29,6 +29,7 @@ from .agent import Agent
 from .conversation import Conversation, Line, Speaker
 from .errors import KirbyError, UsageError
 from .link import RobotLink
+from .proposer import trained_here
 from .replay import logged
 from .transcript import Transcript
 from .view_options import ViewOptions
@@ -144,9 +145,8 @@ def _conversation(
         folder = stack.enter_context(StateFolder(options.state)).path
         url = options.redis or stack.enter_context(RedisServer(folder)).url
         link = stack.enter_context(closing(RobotLink(url, options.namespace)))
-        conversation = Conversation(
-            Agent(world=scene, lexicon=lexicon, name=f"{secrets.token_hex(4)}-"), link.send, show
-        )
+        name = f"{secrets.token_hex(4)}-"
+        conversation = Conversation(Agent(scene, lexicon, name=name, proposer=trained_here()), link.send, show)
         stack.enter_context(logged(conversation, options.log))
         link.start(conversation.deliver)
         robot = None

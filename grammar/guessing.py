@@ -1,0 +1,181 @@
+"""Utterances without a reading: said again with a verb of the program that a classifier takes them to ask for.
+
+What is guessed is a verb and nothing else. The rest must be the person's own words, nearly all that Kirby knows among
+them, and the grammar must read the whole: so a guess means what its words say, and its words can be asked about.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import combinations, islice
+from typing import Protocol
+
+from voxml.terms import Form, Quantity, Term
+from voxml.vocabulary import Lexicon
+
+from .acts import DialogueAct, Function
+from .lattice import Lattice
+from .reader import Reader
+from .tokens import MARKS
+
+NONE = "none"
+"""What a classifier calls utterances that ask for nothing."""
+
+UNKNOWN_MAX = 3  # more unknown words than that, and it is another subject
+WORDS_MAX = 16
+DROPPED_MAX = 1  # known words that may be passed over
+TRIALS_MAX = 60
+LIGHT_VERBS_MAX = 3
+_DROPPABLE = frozenset({"PRONOUN", "DETERMINER", "DEMONSTRATIVE", "VERB", "VERB_ING", "LIGHT", "MANNER", "AS", "BE"})
+"""A word of these categories alone may be passed over: never an amount, a side, a place or a thing, nor "not"."""
+
+_PARTICLES = frozenset({"AXIS", "PATH", "LOC"})
+"""Behind an unknown verb a word of these may belong to it, as in "hunt down"."""
+
+
+class Proposer(Protocol):
+    """Guesses what is asked for: a classifier of utterances as `Guesser.words` shows them."""
+
+    def __call__(self, words: tuple[str, ...]) -> str | None:
+        """The predicate of the program that the words ask for; None where it is not sure that they ask for one."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Word:
+    """A word, or an amount of several, as the classifier sees it and as it was said; the programs that it names."""
+
+    shown: str
+    said: str
+    known: bool = True
+    droppable: bool = False
+    verb_of: frozenset[str] = frozenset()
+    event_of: frozenset[str] = frozenset()
+
+
+class Guesser:
+    """Rewords utterances with the words of one lexicon; ``reader`` is the grammar's."""
+
+    def __init__(self, lexicon: Lexicon, reader: Reader) -> None:
+        self._lexicon = lexicon
+        self._reader = reader
+        self._vocabulary = lexicon.vocabulary()
+        self._verbs = _verbs(lexicon)
+        lights = (word.words[0] for word in lexicon.closed.words_of("LIGHT") if len(word.words) == 1)
+        self._light_verbs = tuple(islice(lights, LIGHT_VERBS_MAX))
+
+    @property
+    def programs(self) -> frozenset[str]:
+        """The predicates that a proposer may name: those of verbs."""
+        return frozenset(self._verbs)
+
+    def words(self, text: str) -> tuple[str, ...]:
+        """The utterance as a classifier sees it: fluent, and with the dimension in place of each amount."""
+        return tuple(word.shown for word in self._words(text))
+
+    def guess(self, text: str, proposer: Proposer) -> tuple[DialogueAct, ...] | None:
+        """The act that the proposer's program makes of the text, to be confirmed; stopping needs no confirmation."""
+        words = self._words(text)
+        unknown = sum(not word.known for word in words)
+        if unknown > UNKNOWN_MAX or unknown == len(words) or len(words) > WORDS_MAX:
+            return None
+        pred = proposer(tuple(word.shown for word in words))
+        if pred is None or pred not in self._verbs:
+            return None
+        if pred == "stop":
+            return (DialogueAct(Function.INSTRUCT, Term("stop"), (0, len(text))),)
+        for reworded in islice(self._reworded(words, pred), TRIALS_MAX):
+            form = self._form(reworded, pred)
+            if form is not None:
+                return (DialogueAct(Function.INSTRUCT, form, (0, len(text)), repaired=reworded),)
+        return None
+
+    def _form(self, text: str, pred: str) -> Form | None:
+        """What the text means, if it is one instruction to carry out the program, without a slip of the tongue."""
+        acts = self._reader.read(text) if self._reader.is_fluent(text) else None
+        if not isinstance(acts, tuple) or len(acts) != 1 or acts[0].function is not Function.INSTRUCT:
+            return None
+        return acts[0].form if head_program(acts[0].form, self._lexicon) == pred else None
+
+    # ------------------------------------------------------------ words
+    def _words(self, text: str) -> tuple[_Word, ...]:
+        tokens = self._reader.tokens(text)
+        lattice = self._reader.lattice(tokens)
+        words: list[_Word] = []
+        at = 0
+        while at < len(tokens):
+            word, length = self._word(lattice, at, behind_unknown=bool(words) and not words[-1].known)
+            if word.said not in MARKS:
+                words.append(word)
+            at += length
+        return tuple(words)
+
+    def _word(self, lattice: Lattice, at: int, behind_unknown: bool) -> tuple[_Word, int]:
+        edges = lattice.edges(at)
+        amount = next((edge for edge in edges if edge.terminal in ("QTY", "QTY_MORE", "NUMBER")), None)
+        if amount is not None:
+            return _Word(_dimension(amount.value), " ".join(lattice.texts[at : at + amount.length])), amount.length
+        text = lattice.texts[at]
+        alone = [edge for edge in edges if edge.length == 1 and edge.terminal is not None]
+        categories = {edge.terminal for edge in alone}
+        droppable = bool(categories) and categories <= _DROPPABLE
+        programs = {
+            kind: frozenset(each.entry.lex.pred for edge in alone if edge.terminal == kind for each in edge.value)
+            for kind in ("VERB", "EVENT")
+        }
+        known = text in self._vocabulary
+        droppable = droppable or (behind_unknown and not categories.isdisjoint(_PARTICLES))
+        return _Word(text, text, known, droppable, programs["VERB"], programs["EVENT"]), 1
+
+    def _reworded(self, words: tuple[_Word, ...], pred: str) -> Iterator[str]:
+        """Texts with a verb of the program, those that keep the most of what was said first."""
+        kept = frozenset(index for index, word in enumerate(words) if word.known)
+        places = [index for index, word in enumerate(words) if not word.known or pred in word.verb_of]
+        droppable = [index for index in sorted(kept) if words[index].droppable]
+        light = self._light_verbs if any(pred in word.event_of for word in words) else ()
+        for count in range(DROPPED_MAX + 1):
+            for dropped in combinations(droppable, count):
+                for place in dict.fromkeys([*places, 0]):
+                    for verb in (*light, self._verbs[pred]):
+                        yield _said_again(words, kept - set(dropped), place, verb, pred)
+
+
+def _said_again(words: tuple[_Word, ...], kept: frozenset[int], place: int, verb: str, pred: str) -> str:
+    """The words that are kept, with the verb at its place, where no verb of the program stands there already."""
+    said = []
+    for index, word in enumerate(words):
+        own = pred in word.verb_of
+        if index == place and not own:
+            said.append(verb)
+        if index in kept or (index == place and own):
+            said.append(word.said)
+    return " ".join(said)
+
+
+def _verbs(lexicon: Lexicon) -> dict[str, str]:
+    """A verb for each program, its own name where that is a word."""
+    verbs: dict[str, str] = {}
+    for sense in lexicon.all_senses():
+        if sense.category != "VERB" or not isinstance(sense.value, tuple):
+            continue
+        for reading in sense.value:
+            pred, phrase = reading.entry.lex.pred, " ".join(sense.words)
+            if reading.gives is None and (pred not in verbs or phrase == pred.replace("_", " ")):
+                verbs[pred] = phrase
+    return verbs
+
+
+def _dimension(value: Form) -> str:
+    """An amount as the classifier sees it: ``<metre>``, ``<count>``."""
+    while isinstance(value, Term) and value.args:
+        value = value.args[0]
+    return f"<{value.unit.name.lower()}>" if isinstance(value, Quantity) else "<amount>"
+
+
+def head_program(form: Form, lexicon: Lexicon) -> str | None:
+    """The program that one instruction asks for, whatever the manner and however often; None where it is several."""
+    while isinstance(form, Term) and form.pred not in lexicon.programs:
+        if form.pred != "repeat" and form.pred not in lexicon.attributes:
+            return None
+        form = form.args[-1]
+    return form.pred if isinstance(form, Term) else None
