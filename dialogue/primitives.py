@@ -169,7 +169,7 @@ class Draft:
         landmarks = tuple(m for arg in goal.args for m in self.meant(arg) if isinstance(m, Entity))
         for thing in landmarks:
             check_thing(goal.pred, thing, self.lexicon)
-        place = goal_place(relation.value, self.world.robot.point, landmarks)
+        place = goal_place(relation.value, self.world, landmarks)
         if place is None:
             raise Stops(Refused(Refusal.NOT_ABLE, form))
         self.places.append(place)

@@ -8,7 +8,10 @@ from collections.abc import Callable, Mapping
 from robot.geometry import Point, Pose, Segment
 
 from .entities import Entity
+from .floor_plan import Room
+from .map_places import WALL, ends_of
 from .relations import COMPASS_RAD
+from .world import World
 
 CLEAR_M = 0.5
 """From the side of a thing to the middle of the robot beside it."""
@@ -16,19 +19,57 @@ CLEAR_M = 0.5
 BEFORE = frozenset({"path.goal", "path.direction", "path.via", "RCC8.DC", "RCC8.EC"})
 """Relations whose place, for a thing that one can stand before, is where one stands before it."""
 
+_INTO = frozenset({"path.in", "path.goal", "RCC8.NTPP"})
+_OVER = frozenset({"path.across", "path.through", "path.along", "path.past"})
+_BEYOND_M = 0.8  # behind a doorway
+_OPPOSITE_M = 1.5  # across a hallway's width
 _OPEN_M = 5.0  # where the map shows no wall ahead
 _SHORT_OF_WALL_M = 0.4
 
 _Place = Callable[[Point, Entity], Point]
 
 
-def goal_place(value: str, robot: Point, landmarks: tuple[Entity, ...]) -> Point | None:
+def goal_place(value: str, world: World, landmarks: tuple[Entity, ...]) -> Point | None:
     """Where a relation of this value (see its entry) leads, seen from the robot; None if it names no one place."""
+    robot = world.robot.point
+    room = world.room_of(landmarks[0]) if len(landmarks) == 1 else None
+    if room is not None:
+        return _room_place(value, world, room)
+    if value == "path.along" and len(landmarks) == 1 and landmarks[0].type == WALL:
+        return _along(landmarks[0], world)
     if value == "projective.between" and len(landmarks) == 2:
         first, second = (landmark.point for landmark in landmarks)
         return Point((first.x_m + second.x_m) / 2, (first.y_m + second.y_m) / 2)
     place = _PLACES.get(value)
     return None if place is None or len(landmarks) != 1 else place(robot, landmarks[0])
+
+
+def _room_place(value: str, world: World, room: Room) -> Point | None:
+    """In a room, across it, or out of it by the nearest doorway."""
+    robot, plan = world.robot.point, world.floor_plan
+    assert plan is not None
+    if value in _INTO:
+        return room.place.point
+    if value in _OVER:
+        return max(room.sides, key=robot.distance_to)
+    ways = plan.doorways_of(room)
+    if value != "path.out" or not ways:
+        return None
+    nearest = min(ways, key=lambda way: robot.distance_to(way.point))
+    return _through(room.place.point, nearest)
+
+
+def _through(robot: Point, thing: Entity) -> Point:
+    """On its other side, straight through."""
+    beyond_rad = thing.pose.yaw_rad + (math.pi if thing.pose.to_local(robot).x_m >= 0 else 0.0)
+    return thing.point.moved(_BEYOND_M, beyond_rad)
+
+
+def _along(wall: Entity, world: World) -> Point:
+    """Beside a wall, before the end of it that lies more ahead; doorways do not end it."""
+    ahead = max(ends_of(wall, world.walls, world.robot), key=lambda end: world.robot.to_local(end).x_m)
+    before = ahead.moved(CLEAR_M, ahead.bearing_to(wall.point))
+    return before.moved(CLEAR_M, wall.pose.yaw_rad)
 
 
 def _reach_m(landmark: Entity) -> float:
@@ -54,10 +95,12 @@ _PLACES: Mapping[str, _Place] = {
     "projective.back": _own(math.pi),
     "projective.left": _seen(math.pi / 2),
     "projective.right": _seen(-math.pi / 2),
+    "projective.near": _seen(math.pi),
+    "projective.across": lambda robot, thing: thing.point.moved(_OPPOSITE_M, thing.pose.yaw_rad),
     "projective.away": lambda robot, thing: robot.moved(1.0, thing.point.bearing_to(robot)),
     "path.past": _seen(0.0),
     "path.around": _seen(0.0),
-    "path.through": _seen(0.0),
+    "path.through": _through,
     "path.across": _seen(0.0),
     "path.in": lambda robot, thing: thing.point,
     "RCC8.NTPP": lambda robot, thing: thing.point,

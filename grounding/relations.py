@@ -77,21 +77,44 @@ def relation(entry: RelationEntry) -> Holds | None:
 
     None for a relation that cannot be computed on a flat map ("above").
     """
-    distance = _DISTANCE.fullmatch(entry.constraint or "")
+    distance = _DISTANCE.match(entry.constraint or "")
     if distance is not None:
         return _at_distance(distance[1], float(distance[2]))
+    if is_outside(entry):
+        return lambda robot, landmark, xy_m: ~_touches(robot, landmark, xy_m)
     return _touches if entry.value in _TOUCHING else _SIDES.get(entry.value)
+
+
+def is_graded(entry: RelationEntry) -> bool:
+    """Whether it holds the more the nearer something is."""
+    distance = _DISTANCE.match(entry.constraint or "")
+    return distance is not None and distance[1] == "<="
+
+
+def is_outside(entry: RelationEntry) -> bool:
+    """Whether it is the contrary of being inside."""
+    return entry.constraint == "not(in(x, y))"
+
+
+def gap_m(landmark: Entity, xy_m: Places) -> NDArray[np.float64]:
+    """How far places are from a landmark: from its own place, or from anywhere on a wall; shape (n,)."""
+    length_m, width_m, _ = landmark.size_m
+    if length_m > 0.0 or width_m == 0.0:
+        return distances_m((landmark.pose.x_m, landmark.pose.y_m), xy_m)
+    local = local_m(landmark.pose, xy_m)
+    return np.asarray(np.hypot(local[:, 0], np.maximum(np.abs(local[:, 1]) - width_m / 2, 0.0)))
 
 
 def _touches(robot: Pose, landmark: Entity, xy_m: Places) -> Mask:
     """On it, in it or against it, by its footprint."""
-    away_m = distances_m((landmark.pose.x_m, landmark.pose.y_m), xy_m)
-    return (away_m > 0) & (away_m <= max(landmark.size_m[:2]) / 2 + _TOUCHING_M)
+    half_m = 0.0 if landmark.size_m[0] == 0.0 else max(landmark.size_m[:2]) / 2
+    away_m = gap_m(landmark, xy_m)
+    return (away_m > 0) & (away_m <= half_m + _TOUCHING_M)
 
 
 def _at_distance(comparison: str, distance_m: float) -> Holds:
     def holds(robot: Pose, landmark: Entity, xy_m: Places) -> Mask:
-        away_m = distances_m((landmark.pose.x_m, landmark.pose.y_m), xy_m)
+        away_m = gap_m(landmark, xy_m)
         return (away_m > 0) & (away_m <= distance_m) if comparison == "<=" else away_m > distance_m
 
     return holds
@@ -116,12 +139,16 @@ _FRAME_YAW: Mapping[Frame, Callable[[Pose, Pose], float]] = {
     Frame.OWN: lambda robot, landmark: landmark.yaw_rad,
     Frame.MAP: lambda robot, landmark: 0.0,
 }
-_DISTANCE = re.compile(r"dist\(x, y\) (<=|>) ([0-9.]+)m")
+_DISTANCE = re.compile(r"(?:while\()?dist\(x, y\) (<=|>) ([0-9.]+)m")
 _SIDES: Mapping[str, Holds] = {
     "projective.left": _on_side(math.pi / 2, Frame.VIEWER),
     "projective.right": _on_side(-math.pi / 2, Frame.VIEWER),
     "projective.front": _on_side(0.0, Frame.OWN),
     "projective.back": _on_side(math.pi, Frame.OWN),
+    "projective.across": _on_side(0.0, Frame.OWN),
+    "path.past": _on_side(0.0, Frame.VIEWER),
+    "path.across": _on_side(0.0, Frame.VIEWER),
+    "path.through": _on_side(0.0, Frame.VIEWER),
     **{f"cardinal.{name}": _on_side(yaw_rad, Frame.MAP) for name, yaw_rad in COMPASS_RAD.items()},
 }
 BETWEEN = "projective.between"

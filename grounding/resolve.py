@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,11 +13,14 @@ from voxml.vocabulary import Lexicon
 
 from .descriptions import DEFINITE, EXCLUDING, INDEFINITE, PLURAL, Description, attachments, describe
 from .entities import NO_ROWS, Entity, Rows
+from .modifying import Failure, Setting, clearest, modified
 from .ordering import counted_from, pick
 from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
+from .parts import part_place, whole_of
 from .pointing import likely_rows, pointed_place, pointed_ray, read_point
 from .relations import COMPASS_RAD, distances_m, meeting_key_m
-from .selecting import ONE, Failure, modified, noun_rows
+from .searching import searched
+from .selecting import ONE, noun_rows
 from .world import World
 
 
@@ -33,7 +38,8 @@ def resolve(form: Form, world: World, lexicon: Lexicon) -> Resolution:
     description = describe(form)
     if description is None:
         return Unresolved(Reason.NOT_A_PLACE, form)
-    return _described(description, world, lexicon)
+    whole = whole_of(description)
+    return _described(description, world, lexicon) if whole is None else _part(description, whole, world, lexicon)
 
 
 def _direct(form: Form, world: World) -> Resolution | None:
@@ -45,7 +51,7 @@ def _direct(form: Form, world: World) -> Resolution | None:
         case Name(text=name):
             return _denoted(form, world.entities.rows_by_name.get(name.lower(), NO_ROWS), world)
         case Term(pred="entity", args=(Name(text=id),)):
-            entity = world.entities.get(id)
+            entity = world.get(id)
             return Unresolved(Reason.NOTHING_FITS, form) if entity is None else Grounded((entity,))
         case Term(pred="this" | "that", args=(Term(pred="way"), *rest)):
             return _pointed_way(form, rest, world)
@@ -67,7 +73,7 @@ def _word(form: Term, world: World) -> Resolution | None:
         case "there" | "this" | "that" | "these" | "those":
             return Unresolved(Reason.NEEDS_POINTING, form)
         case "it" | "them":
-            spoken_of = tuple(filter(None, map(world.entities.get, world.focus[:1])))
+            spoken_of = tuple(filter(None, map(world.get, world.focus[:1])))
             return Grounded(spoken_of) if spoken_of else Unresolved(Reason.NO_ANTECEDENT, form)
         case _:
             return None
@@ -96,6 +102,15 @@ def _pointed_way(form: Form, rest: list[Form], world: World) -> Resolution:
     return Grounded((Heading(world.robot.point.bearing_to(place)),))
 
 
+def _part(description: Description, whole: Form, world: World, lexicon: Lexicon) -> Resolution:
+    """ "The far end of the hallway" is a place."""
+    outcome = resolve(whole, world, lexicon)
+    if not isinstance(outcome, Grounded) or not isinstance(outcome.one, Entity):
+        return outcome
+    place = part_place(description, outcome.one, world)
+    return Unresolved(Reason.NOT_A_PLACE, description.form) if place is None else Grounded((place,))
+
+
 # ------------------------------------------------------------------ descriptions
 def _described(description: Description, world: World, lexicon: Lexicon) -> Resolution:
     """Tries the attachments; the readings that denote are kept, and among them those that denote one thing."""
@@ -116,22 +131,27 @@ def _described(description: Description, world: World, lexicon: Lexicon) -> Reso
 
 
 def _reading(description: Description, chain: tuple[Term, ...], world: World, lexicon: Lexicon) -> Resolution:
-    rows = noun_rows(description, world)
+    description, within = searched(replace(description, modifiers=chain), world)
+    rows = noun_rows(description, within)
+    setting = Setting(within, lexicon, lambda form: resolve(form, world, lexicon))
     origin = next(filter(None, map(counted_from, chain)), None) if description.ordering else None
-    for modifier in chain:
-        if origin is None or counted_from(modifier) is None:
-            rows = modified(modifier, rows, world, lexicon, lambda form: resolve(form, world, lexicon))
+    restricting = tuple(modifier for modifier in chain if origin is None or counted_from(modifier) is None)
+    for modifier in restricting:
+        rows = modified(modifier, rows, setting)
     if description.determiner in EXCLUDING and world.focus:
-        rows = np.extract(rows != world.entities.index.get(world.focus[0], -1), rows)
+        rows = np.extract(rows != within.entities.index.get(world.focus[0], -1), rows)
     if description.noun == ONE and not description.pointings:
-        rows = _of_the_kind_spoken_of(rows, world)
+        rows = _of_the_kind_spoken_of(rows, within)
     if description.ordering is not None:
         assert isinstance(description.form, Term)
-        picked = pick(description.form, description.ordering, origin, rows, world)
+        picked = pick(description.form, description.ordering, origin, rows, within)
         if isinstance(picked, Unresolved):
             return picked
         rows = picked
-    return _determined(description, rows, world)
+    elif description.determiner in DEFINITE and not description.plural:
+        for modifier in restricting:
+            rows = clearest(modifier, rows, setting)
+    return _determined(description, rows, within)
 
 
 def _of_the_kind_spoken_of(rows: Rows, world: World) -> Rows:

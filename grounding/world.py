@@ -9,6 +9,8 @@ from robot.messages import Fiducials, Map, Odom
 from voxml.scene import Scene, SceneObject
 
 from .entities import FIDUCIAL, Entities, Entity, StandsFor
+from .floor_plan import ROOMS, FloorPlan, Room, floor_plan
+from .map_places import map_place
 
 FOCUS_MAX = 8
 _NOTHING = Entities()
@@ -40,6 +42,20 @@ class World:
         walls = tuple(Segment(Point(w.x1_m, w.y1_m), Point(w.x2_m, w.y2_m)) for w in scene.walls)
         things = Entities(tuple(_entity(thing) for thing in scene.objects))
         return replace(cls.unexplored(scene), entities=things, walls=walls)
+
+    @property
+    def floor_plan(self) -> FloorPlan | None:
+        """Rooms and openings, by the walls as they are known now; None while none are."""
+        return floor_plan(self.walls)
+
+    def room_of(self, place: Entity) -> Room | None:
+        """The room that a place of the map is; None for anything else."""
+        plan = self.floor_plan if place.type in ROOMS else None
+        return None if plan is None else plan.room_of(place)
+
+    def get(self, id: str) -> Entity | None:
+        """The thing, or the place of the map, with this id."""
+        return self.entities.get(id) or map_place(id, self.walls, self.robot)
 
     def with_robot(self, pose: Pose) -> World:
         """The same world seen from another pose."""
@@ -83,7 +99,7 @@ class World:
 
     def only(self, ids: tuple[str, ...]) -> World:
         """The same world with no other things than these, in this order."""
-        return replace(self, entities=Entities(tuple(filter(None, map(self.entities.get, ids)))))
+        return replace(self, entities=Entities(tuple(filter(None, map(self.get, ids)))))
 
 
 def _perceived(id: str, pose: Pose, meaning: StandsFor | None) -> Entity:
