@@ -2,6 +2,7 @@
 
 from .approach import STAND_OFF_M, approach
 from .entities import FIDUCIAL, Entities, Entity, StandsFor
+from .frames import Frame, frame_of, frames_in
 from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
 from .resolve import resolve
 from .world import World
@@ -12,6 +13,7 @@ __all__ = [
     "Ambiguous",
     "Entities",
     "Entity",
+    "Frame",
     "Grounded",
     "Heading",
     "Reason",
@@ -20,5 +22,7 @@ __all__ = [
     "Unresolved",
     "World",
     "approach",
+    "frame_of",
+    "frames_in",
     "resolve",
 ]

@@ -11,7 +11,7 @@ from .ordering import ORDERINGS
 
 DEFINITE = frozenset({"the", "your", "my", "our", "his", "her", "its", "their"})
 INDEFINITE = frozenset({"a", "some", "any", "another", "either"})
-PLURAL = frozenset({"all", "both", "every", "each", "what", "which"})
+PLURAL = frozenset({"all", "both", "every", "each", "most", "what", "which"})
 DEMONSTRATIVE = frozenset({"this", "that", "these", "those"})
 DETERMINERS = DEFINITE | INDEFINITE | PLURAL | DEMONSTRATIVE
 EXCLUDING = frozenset({"another"})
@@ -40,48 +40,55 @@ def describe(form: Form) -> Description | None:
     """The parts of a noun phrase; None for a form that is none (a place, a heading, a name)."""
     if not isinstance(form, Term) or form.pred not in DETERMINERS:
         return None
-    core, chain, ordering = _restrictor(form)
-    if not isinstance(core, Term):
-        return None
-    core, count = _counted(core)
-    adjectives = []
+    parts = _peeled(form)
+    core, adjectives = parts.core, []
     while len(core.args) == 1 and isinstance(inner := core.args[0], Term):
         adjectives.append(core.pred)
         core = inner
-    chain = [part for part in core.args if isinstance(part, Term)] + chain
+    chain = [part for part in core.args if isinstance(part, Term)] + parts.chain
     return Description(
         form,
         form.pred,
         core.pred,
         tuple(adjective for adjective in adjectives if adjective != _MANY),
-        ordering,
+        parts.ordering,
         tuple(part for part in chain if part.pred != POINTED and not _pointing_in(part)),
         tuple(filter(None, map(_pointing_in, chain))),
-        _MANY in adjectives or count is not None,
-        count,
+        _MANY in adjectives or parts.count is not None,
+        parts.count,
     )
 
 
-def _counted(core: Term) -> tuple[Term, int | None]:
-    """ "Two blocks": ``count(2,plural(block))``."""
-    match core:
-        case Term("count", (Quantity(value=number), Term() as counted)):
-            return counted, int(number)
-        case _:
-            return core, None
+@dataclass
+class _Peeled:
+    """What is under the determiner, the ordering and the number, whichever of these two comes first."""
 
-
-def _restrictor(phrase: Term) -> tuple[Form, list[Term], str | None]:
-    """The noun with its adjectives, the chain of modifiers, and the ordering; a bare demonstrative is of some one."""
-    if not phrase.args or phrase.args[0] == Term(POINTED) or _pointing_in(phrase.args[0]) is not None:
-        return Term("one"), [part for part in phrase.args if isinstance(part, Term)], None
-    core: Form = phrase.args[0]
-    rest = phrase.args[1:]
+    core: Term
+    chain: list[Term]
     ordering: str | None = None
-    if isinstance(core, Term) and core.pred in ORDERINGS and core.args:
-        ordering, rest = core.pred, (*core.args[1:], *rest)
-        core = core.args[0]
-    return core, [part for part in rest if isinstance(part, Term)], ordering
+    count: int | None = None
+
+
+def _peeled(phrase: Term) -> _Peeled:
+    """The noun with its adjectives, and what is said around it; a bare demonstrative is of some one."""
+    if not phrase.args or phrase.args[0] == Term(POINTED) or _pointing_in(phrase.args[0]) is not None:
+        return _Peeled(Term("one"), _terms(phrase.args))
+    found = _Peeled(phrase, [])
+    while True:
+        match found.core:
+            case Term("count", (Quantity(value=number), Term() as inner, *rest)):
+                found.count = int(number)
+            case Term(pred, (Term() as inner, *rest)) if found.core is phrase:
+                pass
+            case Term(pred, (Term() as inner, *rest)) if pred in ORDERINGS:
+                found.ordering = found.ordering or pred
+            case _:
+                return found
+        found.core, found.chain = inner, _terms(tuple(rest)) + found.chain
+
+
+def _terms(parts: tuple[Form, ...]) -> list[Term]:
+    return [part for part in parts if isinstance(part, Term)]
 
 
 def _pointing_in(part: Form) -> Term | None:
@@ -114,7 +121,7 @@ def attachments(modifiers: tuple[Term, ...]) -> Iterator[tuple[Term, ...]]:
 def _nested(modifier: Term, inner: tuple[Term, ...]) -> Iterator[Term]:
     if not inner:
         yield modifier
-    elif modifier.args and describe(modifier.args[-1]) is not None:
+    elif modifier.pred != "not" and modifier.args and describe(modifier.args[-1]) is not None:
         landmark = modifier.args[-1]
         assert isinstance(landmark, Term)
         for chain in attachments(inner):

@@ -11,7 +11,7 @@ from grammar.forms import Form, Term
 from voxml.schema import RelationEntry
 from voxml.vocabulary import Lexicon
 
-from .descriptions import describe, number_of
+from .descriptions import PLURAL, describe, number_of
 from .entities import NO_ROWS, Entity, Mask, Rows
 from .map_places import WALL, long_walls, whole_wall
 from .outcomes import Ambiguous, Grounded, Reason, Resolution, Unresolved
@@ -79,8 +79,19 @@ def modified(modifier: Term, rows: Rows, setting: Setting) -> Rows:
         return rows  # whatever can be meant was seen, and pointing is looked at by itself
     if modifier.pred == "not" and len(modifier.args) == 1:
         return np.setdiff1d(rows, _denied(modifier.args[0], rows, setting))
+    if modifier.pred == "of" and (of_them := _of_them(modifier, rows, setting)) is not None:
+        return of_them
     masks = _holding(modifier, world.entities.xy_m[rows], setting)
     return np.extract(np.logical_or.reduce(masks), rows) if masks else NO_ROWS
+
+
+def _of_them(modifier: Term, rows: Rows, setting: Setting) -> Rows | None:
+    """ "One of the blocks": those that the plural names; None for the parts of one thing."""
+    form = modifier.args[0] if len(modifier.args) == 1 else None
+    described = describe(form) if form is not None else None
+    if described is None or not isinstance(form, Term) or not (described.plural or described.determiner in PLURAL):
+        return None
+    return _named(form, rows, setting)
 
 
 def clearest(modifier: Term, rows: Rows, setting: Setting) -> Rows:
@@ -117,6 +128,12 @@ def _denied(form: Form, rows: Rows, setting: Setting) -> Rows:
         return common(rows, entities.rows_by_attribute.get(form.pred, NO_ROWS), len(entities))
     if describe(form) is None:
         return modified(form, rows, setting)
+    return _named(form, rows, setting)
+
+
+def _named(form: Term, rows: Rows, setting: Setting) -> Rows:
+    """The things that a noun phrase names."""
+    entities = setting.world.entities
     named = [entities.index[thing.id] for thing in setting.landmarks(form) if thing.id in entities.index]
     return common(rows, np.array(named, dtype=np.intp), len(entities))
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,12 +88,23 @@ def counted_from(modifier: Term) -> str | None:
     return origin.pred if isinstance(origin, Term) and origin.pred in _COUNTED_FROM else None
 
 
-def pick(form: Term, ordering: str, origin: str | None, rows: Rows, world: World) -> Rows | Unresolved:
-    """Those of ``rows`` that the ordering picks: one, or several where they are equally so, or none.
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """``origin`` is where counting begins (None: along the robot's way); ``count`` is how many are wanted (None: 1)."""
 
-    ``origin`` is where counting begins: the robot's way along its heading unless it is said. ``form`` is the whole noun
-    phrase.
+    ordering: str
+    origin: str | None = None
+    count: int | None = None
+
+
+def pick(form: Term, choice: Choice, rows: Rows, world: World) -> Rows | Unresolved:
+    """Those of ``rows`` that the ordering picks: as many as are wanted, or more where they are equally so, or none.
+
+    ``form`` is the whole noun phrase.
     """
+    ordering, origin = choice.ordering, choice.origin
+    if choice.count is not None and ordering in _FROM_AN_END:
+        return _several(form, choice, rows, world)
     if not len(rows):
         return rows if ordering not in ORDINALS else Unresolved(Reason.TOO_FEW, form, 0)
     if ordering in EXTREMES:
@@ -105,6 +117,19 @@ def pick(form: Term, ordering: str, origin: str | None, rows: Rows, world: World
     if rank > len(rows):
         return Unresolved(Reason.TOO_FEW, form, len(rows))
     return rows[np.argpartition(key, rank - 1)[[rank - 1]]]
+
+
+_FROM_AN_END = frozenset(EXTREMES) | {"first", "last", "next"}
+
+
+def _several(form: Term, choice: Choice, rows: Rows, world: World) -> Rows | Unresolved:
+    """ "The first two", "the three nearest", "the last two": from an end of an order."""
+    assert choice.count is not None
+    if choice.count > len(rows):
+        return Unresolved(Reason.TOO_FEW, form, len(rows))
+    key = EXTREMES.get(choice.ordering, _COUNTED_FROM[choice.origin] if choice.origin else _met)(world, rows)
+    order = rows[np.argsort(key, kind="stable")]
+    return order[-choice.count :] if choice.ordering == "last" else order[: choice.count]
 
 
 def _chosen(ordering: str, origin: str | None, key: Keys, rows: Rows, world: World) -> Rows:

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Mapping
-from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +18,7 @@ from robot.geometry import Pose
 from voxml.schema import RelationEntry
 
 from .entities import Entity, Mask
+from .frames import Frame
 
 COMPASS_RAD = {
     name: math.radians(45.0 * step)
@@ -60,14 +60,6 @@ REGIONS: Mapping[str, Callable[[Places], Mask]] = {
 
 
 # ------------------------------------------------------------------ to a landmark
-class Frame(Enum):
-    """Whose left, front or north it is (Levinson's relative, intrinsic and absolute frames)."""
-
-    VIEWER = "viewer"  # the robot's, as it looks at the landmark
-    OWN = "own"  # the landmark's
-    MAP = "map"
-
-
 Holds = Callable[[Pose, Entity, Places], Mask]
 """(robot, landmark, places of shape (n, 2)) -> of which places the relation to the landmark holds, shape (n,)."""
 

@@ -14,7 +14,7 @@ from voxml.vocabulary import Lexicon
 from .descriptions import DEFINITE, EXCLUDING, INDEFINITE, PLURAL, Description, attachments, describe
 from .entities import NO_ROWS, Entity, Rows
 from .modifying import Failure, Setting, clearest, modified
-from .ordering import counted_from, pick
+from .ordering import Choice, counted_from, pick
 from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
 from .parts import part_place, whole_of
 from .pointing import likely_rows, pointed_place, pointed_ray, read_point
@@ -32,7 +32,7 @@ def resolve(form: Form, world: World, lexicon: Lexicon) -> Resolution:
     attachments of a chain of modifiers those that denote something are kept; only if two different things remain is it
     ambiguous.
     """
-    direct = _direct(form, world)
+    direct = _direct(form, world, lexicon)
     if direct is not None:
         return direct
     description = describe(form)
@@ -42,7 +42,7 @@ def resolve(form: Form, world: World, lexicon: Lexicon) -> Resolution:
     return _described(description, world, lexicon) if whole is None else _part(description, whole, world, lexicon)
 
 
-def _direct(form: Form, world: World) -> Resolution | None:
+def _direct(form: Form, world: World, lexicon: Lexicon) -> Resolution | None:
     """Forms that need no search."""
     place = read_point(form)
     if place is not None:
@@ -59,8 +59,28 @@ def _direct(form: Form, world: World) -> Resolution | None:
             return _pointed_at(form, pointing, world)
         case Term(args=()):
             return _word(form, world)
+        case Term("and", parts):
+            return _every(tuple(resolve(part, world, lexicon) for part in parts))
+        case Term("or", parts):
+            return _either(form, tuple(resolve(part, world, lexicon) for part in parts))
         case _:
             return None
+
+
+def _every(parts: tuple[Resolution, ...]) -> Resolution:
+    """What all of them mean, in the order in which it was said; or the first that fails."""
+    failure = next((part for part in parts if not isinstance(part, Grounded)), None)
+    return failure or Grounded(
+        tuple(dict.fromkeys(r for part in parts if isinstance(part, Grounded) for r in part.referents))
+    )
+
+
+def _either(form: Form, parts: tuple[Resolution, ...]) -> Resolution:
+    """The only one that means something; a question where several do."""
+    found = {r: None for part in parts if isinstance(part, Grounded) for r in part.referents}
+    found |= {thing: None for part in parts if isinstance(part, Ambiguous) for thing in part.candidates}
+    entities = tuple(each for each in found if isinstance(each, Entity))
+    return Ambiguous(form, entities) if len(entities) > 1 else Grounded(tuple(found)) if found else parts[0]
 
 
 def _word(form: Term, world: World) -> Resolution | None:
@@ -144,7 +164,7 @@ def _reading(description: Description, chain: tuple[Term, ...], world: World, le
         rows = _of_the_kind_spoken_of(rows, within)
     if description.ordering is not None:
         assert isinstance(description.form, Term)
-        picked = pick(description.form, description.ordering, origin, rows, within)
+        picked = pick(description.form, Choice(description.ordering, origin, description.count), rows, within)
         if isinstance(picked, Unresolved):
             return picked
         rows = picked
@@ -192,6 +212,8 @@ def _plural(description: Description, rows: Rows, world: World) -> Resolution:
         return Unresolved(reason, description.form, len(rows))
     if description.count is not None and description.count > len(rows):
         return Unresolved(Reason.TOO_FEW, description.form, len(rows))
+    if description.determiner == "most":
+        rows = rows[np.argsort(_away_m(world, rows), kind="stable")][: len(rows) // 2 + 1]
     nearest_first = rows[np.argsort(_away_m(world, rows), kind="stable")]
     if description.count is not None and description.count < len(rows):
         if description.determiner in DEFINITE:

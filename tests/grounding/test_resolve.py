@@ -9,7 +9,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from grammar.forms import parse_form
-from grounding import Ambiguous, Entities, Entity, Grounded, Heading, Reason, Resolution, Unresolved, World, resolve
+from grounding import (
+    Ambiguous,
+    Entities,
+    Entity,
+    Frame,
+    Grounded,
+    Heading,
+    Reason,
+    Resolution,
+    Unresolved,
+    World,
+    frames_in,
+    resolve,
+)
 from robot.geometry import ORIGIN, Point, Pose
 from voxml.vocabulary import load_lexicon
 
@@ -249,3 +262,55 @@ def test_nothing_is_on_both_sides(where: list[tuple[float, float]], at: tuple[fl
     sides = [meant(f"all(block,on({side}))", world) for side in ("left", "right")]
     left, right = (set(ids(side)) if isinstance(side, Grounded) else set() for side in sides)
     assert not left & right
+
+
+# ------------------------------------------------------------------ negation, numbers, grades
+@pytest.mark.parametrize(
+    ("form", "found"),
+    [
+        ("the(block,not(red))", ["2"]),
+        ("the(block,not(on(left)))", ["1"]),
+        ("the(block,not(near(the(wastebasket))))", []),
+        ("the(block,not(near(the(yellow(box)))))", ["1"]),
+        ("all(block,not(the(red(block))))", ["2"]),
+        ("all(fiducial,not(the(red(block))),not(the(wastebasket)))", ["2", "4", "5"]),
+        ("the(first(count(2,plural(fiducial))))", ["1", "2"]),
+        ("the(last(count(2,plural(fiducial),on(right))))", ["3", "5"]),
+        ("the(count(2,nearest(plural(fiducial))))", ["1", "2"]),
+        ("the(leftmost(count(2,plural(fiducial))))", ["2", "4"]),
+        ("the(count(2,plural(fiducial),on(left)))", ["2", "4"]),
+        ("the(second(fiducial,from(right)))", ["3"]),
+        ("most(fiducial)", ["1", "2", "3"]),
+        ("a(one,of(the(plural(box))))", ["4"]),
+        ("and(the(red(block)),the(yellow(box)))", ["1", "4"]),
+        ("the(box,past(the(wastebasket)))", ["5"]),
+        ("the(wastebasket,past(the(red(block))))", ["3"]),
+    ],
+)
+def test_denied_counted_and_joined(form: str, found: list[str]) -> None:
+    outcome = meant(form)
+    assert (ids(outcome) if isinstance(outcome, Grounded) else []) == found
+
+
+def test_near_is_the_one_that_is_by_far_the_nearest_and_asked_where_it_is_not_clear() -> None:
+    def boxes(*at_m: float) -> World:
+        things = (thing(str(n), "box", 3.0, y_m) for n, y_m in enumerate(at_m))
+        return World(ORIGIN, Entities((thing("t", "table", 3.0, 0.0), *things)))
+
+    assert ids(meant("the(box,near(the(table)))", boxes(0.4, 1.4))) == ["0"]
+    assert isinstance(meant("the(box,near(the(table)))", boxes(0.9, 1.4)), Ambiguous)
+    assert len(ids(meant("the(plural(box),near(the(table)))", boxes(0.4, 1.4)))) == 2
+
+
+@pytest.mark.parametrize(
+    ("form", "frames"),
+    [
+        ("the(block,on(left))", [Frame.ROBOT]),
+        ("the(block,left_of(the(table)))", [Frame.VIEWER]),
+        ("the(block,left_of(you))", [Frame.ROBOT]),
+        ("the(block,in_front_of(the(desk,north_of(the(door)))))", [Frame.OWN, Frame.MAP]),
+        ("the(block,near(the(table)))", []),
+    ],
+)
+def test_every_description_tells_its_frames(form: str, frames: list[Frame]) -> None:
+    assert [frame for _, frame in frames_in(parse_form(form), load_lexicon())] == frames
