@@ -16,7 +16,7 @@ import time
 from collections import Counter
 from typing import Any
 
-from grammar import DialogueAct, NotUnderstood, Proposer, parse
+from grammar import DialogueAct, NotUnderstood, parse
 from kirby.train_model import train
 from voxml.vocabulary import load_lexicon
 
