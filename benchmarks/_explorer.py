@@ -51,9 +51,8 @@ def _thought_again(surfaces: Geometry, outline: Geometry, way: Way, here: Point,
     """The same way while it is clear, else the shortest one by what has been seen."""
     if len(way.corners) and not surfaces.intersects(shapely.linestrings(way.corners).buffer(ROBOT_RADIUS_M - CLEAR_M)):
         return way
-    # What it stands on is free, however near the newest surface is.
-    stand = shapely.Point(here.x_m, here.y_m).buffer(ROBOT_RADIUS_M + CLEAR_M)
-    return Ways(surfaces.difference(stand), ROBOT_RADIUS_M, outline).shortest(here, goal)
+    standing = shapely.Point(here.x_m, here.y_m).buffer(STEP_M)  # however near the newest surface is
+    return Ways(surfaces, ROBOT_RADIUS_M, outline, standing).shortest(here, goal)
 
 
 def _surfaces(faces: Faces, seen: Seen) -> Geometry:

@@ -20,6 +20,7 @@ from robot.geometry import Point
 Floats = NDArray[np.float64]
 
 _QUARTER_SEGMENTS = 3  # of the chords that stand for a quarter of a circle around a corner
+NOWHERE = shapely.Point()
 _TOUCH_M = 1e-6  # a way may run along an obstacle's edge
 
 
@@ -40,18 +41,13 @@ class Ways:
     Grown corners are drawn as chords of the true arcs, so a way is never longer than the true optimum.
     """
 
-    def __init__(self, solid: Geometry, radius_m: float, outline: Geometry) -> None:
-        """``outline`` is the ground on which ways may run."""
-        self.solid = solid
-        grown = solid.buffer(radius_m, quad_segs=_QUARTER_SEGMENTS)
+    def __init__(self, solid: Geometry, radius_m: float, outline: Geometry, free: Geometry = NOWHERE) -> None:
+        """Ways run on the ground of ``outline``; of the robot's centre it is known that it can be at ``free``."""
+        grown = solid.buffer(radius_m, quad_segs=_QUARTER_SEGMENTS).difference(free)
         self._blocked = grown.buffer(-_TOUCH_M)
         shapely.prepare(self._blocked)
         self._corners = _corners(outline.difference(grown), outline)
         self._neighbours: dict[int, tuple[NDArray[np.intp], Floats]] = {}
-
-    def is_clear(self, corners: Floats) -> bool:
-        """Whether the way along ``corners``, shape (corners, 2), is free."""
-        return not self._blocked.intersects(shapely.linestrings(corners))
 
     def length_m(self, start: Point, end: Point) -> float:
         """Of the shortest way; inf if there is none."""

@@ -35,7 +35,7 @@ from ._truth import Faces, laser_scan
 
 THERE_M = 0.10  # from the goal to where the robot truly stands when it says that it is there
 SHORTEST_M = 1.0
-LIMIT_S = 900.0
+LIMIT_S = 1800.0
 SURVEY_SCANS = 4
 SURVEY_PERIOD_S = 0.25
 RATIO_MAX = 1.15
