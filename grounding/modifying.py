@@ -102,7 +102,8 @@ def clearest(modifier: Term, rows: Rows, setting: Setting) -> Rows:
     (form,) = modifier.args
     landmarks = setting.landmarks(form) if isinstance(form, Term) else ()
     xy_m = setting.world.entities.xy_m[rows]
-    away_m = np.min([gap_m(each, xy_m) for each in landmarks], axis=0)
+    gaps_m = np.array([gap_m(each, xy_m) for each in landmarks])
+    away_m = np.where(gaps_m > 0, gaps_m, np.inf).min(axis=0)  # nothing is near itself
     order = np.argsort(away_m, kind="stable")
     return rows[order[:1]] if away_m[order[0]] < _CLEARLY * away_m[order[1]] else rows
 
