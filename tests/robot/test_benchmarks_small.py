@@ -37,7 +37,8 @@ def test_goals_are_reached_or_refused_without_a_touch() -> None:
     assert figures["reached_share"] == 1.0
     assert figures["reported_share"] == 1.0
     assert figures["contacts"] == 0
-    assert figures["known_length_ratio_max"] <= 1.15
+    assert figures["known_driven_to_shortest_max"] <= 1.15
+    assert figures["unknown_driven_to_explorer_max"] <= 1.15
 
 
 def test_a_metre_is_a_metre_and_an_angle_that_angle() -> None:
