@@ -5,12 +5,14 @@ from __future__ import annotations
 from voxml.terms import Form, Quantity, Term
 
 from .acts import Function
+from .arguments import Args
 from .machine import Action
 from .phrases import ONE, pred_of
 
 Act = tuple[Function, Form]
 _AGAIN = Term("again")
 _STOP = Term("stop")
+_GOING_ON = (Term("go"), Term("keep_going"), Term("continue"))
 
 
 def _of(kind: Function) -> Action:
@@ -19,6 +21,13 @@ def _of(kind: Function) -> Action:
 
 def _says(kind: Function, pred: str) -> Action:
     return lambda form: (kind, Term(pred))
+
+
+def _not(mark: Form, wrong: Args) -> Act:
+    """ "not that one"; "not left, right" says what is right too."""
+    if len(wrong) == 2 and wrong[0].kind is wrong[1].kind:
+        return Function.CORRECT, wrong[1].form
+    return Function.CORRECT, Term("not", (wrong[0].form,))
 
 
 def _quality(quality: Form) -> Act:
@@ -32,7 +41,7 @@ def _again_often(that: Form, times: Form | Quantity, *mark: Form) -> Act:
 
 def _forbidden(no: Form, what: Form) -> Act:
     """ "do not turn left"; what may not move at all stops."""
-    return Function.INSTRUCT, _STOP if what == Term("go") else Term("not", (what,))
+    return Function.INSTRUCT, _STOP if what in _GOING_ON else Term("not", (what,))
 
 
 def _conditional(marker: Form, condition: Form, core: Form, *otherwise: Form) -> Form:
@@ -65,6 +74,7 @@ ACT_ACTIONS: dict[str, Action] = {
     "act_praise": lambda praise, event: (Function.ACKNOWLEDGE, Term("ok")),
     "act_answer": _of(Function.ANSWER),
     "act_forbid": _forbidden,
+    "act_return": _of(Function.FRAGMENT),
     "act_again": _says(Function.FRAGMENT, "again"),
     "act_again_often": _again_often,
     "act_suggest": lambda about, what: (Function.FRAGMENT, what),
@@ -72,7 +82,8 @@ ACT_ACTIONS: dict[str, Action] = {
     "act_quality_of": lambda determiner, quality: _quality(quality),
     "act_number": lambda mark, number: (Function.FRAGMENT, number),
     "act_until": lambda marker, condition: (Function.FRAGMENT, Term("until", (condition,))),
-    "act_not": lambda mark, wrong: (Function.CORRECT, Term("not", (wrong[0].form,))),
+    "act_not": _not,
+    "act_not_but": lambda mark, wrong, right: (Function.CORRECT, right),
     "act_rather": lambda mark, wrong, separator, right: (Function.CORRECT, right[0].form),
     "act_rather_first": lambda right, separator, mark, wrong: (Function.CORRECT, right[0].form),
 }

@@ -17,6 +17,7 @@ _UNIT_TYPES = {Unit.METRE: "length", Unit.DEGREE: "angle", Unit.SECOND: "duratio
 _TYPE_UNITS = {name: unit for unit, name in _UNIT_TYPES.items()}
 _QUANTITIES = frozenset(_TYPE_UNITS)
 _THINGS = frozenset({"physobj", "location", "human", "artifact", "any"})
+_VAGUE = (Term("little"), Term("max"))
 _ON_THE_WAY = frozenset({"via", "through"})
 BARE_DEGREES_MIN = 5  # nobody means degrees by "turn left two"
 
@@ -140,6 +141,11 @@ class ArgumentFitter:
                 return
             if bound[slot.variable] == value:
                 return  # "turn left ninety degrees to the left"
+            if arg.kind in (Kind.VAGUE, Kind.QUANTITY) and isinstance(value, Quantity) != isinstance(
+                bound[slot.variable], Quantity
+            ):  # "a little to the left, ten degrees"
+                bound[slot.variable] = value if isinstance(value, Quantity) else bound[slot.variable]
+                return
         raise Refused(f"no {arg.kind.value} with '{entry.lex.pred.replace('_', ' ')}'")
 
     def _value(self, slot: Argument, arg: Arg) -> Form | None:
@@ -229,6 +235,8 @@ def _take_modifiers(entry: ProgramEntry, bound: dict[str, Form]) -> None:
 
 
 def _given(form: Form) -> Arg:
+    if form in _VAGUE:
+        return Arg(Kind.VAGUE, form)
     return Arg(Kind.AXIS if isinstance(form, Term) and not form.args else Kind.PATH, form)
 
 

@@ -26,6 +26,8 @@ class Completer:
                 return self.completed(last, fragment)
             case Term() as program, Term("again", (changed,)):  # "a left and another left"
                 return self._with(program, changed)
+            case Term() as program, Term("again", ()):
+                return program
             case Term() as program, _:
                 return self._with(program, fragment)
         return None

@@ -12,6 +12,7 @@ from .tokens import MARKS
 _DIRECTIONS = frozenset({"AXIS", "SIDE", "HEADING"})
 _QUALITIES = frozenset({"ADJECTIVE", "ORDINAL", "SIDE_ADJ"})
 _NAMES_OF_THINGS = frozenset({"NOUN", "NOUNS"})
+_COUNTS = frozenset({"NUMBER", "CARDINAL", "QTY"})
 _PASSED_OVER = Edge(None, None, 1)
 
 
@@ -28,6 +29,7 @@ class Neighbours:
         self._refusals = frozenset(closed.table("NO"))
         self._openers = frozenset(closed.table("opener"))
         self._enumerators = frozenset(closed.table("enumerator"))
+        self._intensifiers = frozenset(closed.table("intensifier"))
         self._benefactives = frozenset(closed.table("benefactive"))
         categories = {word: {sense.category for sense in lexicon.lookup(word)} for word in lexicon.vocabulary()}
         self._determiners = _in(categories, {"DETERMINER"})
@@ -36,8 +38,13 @@ class Neighbours:
         self._to_do = _in(categories, {"VERB", "LIGHT"})
         self._clauses = self._verbs | _in(categories, {"LIGHT"}) | self._addresses
         self._ways = _in(categories, {"AXIS", "SIDE", "HEADING", "PLACE", "PATH"}) - self._nouns
+        self._ones = _in(categories, {"ONE"})
+        self._nouns |= self._ones
+        self._sides = _in(categories, {"SIDE_ADJ"})
+        self._places = frozenset(sense.words[0] for sense in lexicon.all_senses() if sense.category == "LOC")
+        self._places -= self._determiners | self._ways
         adjectives = {sense.words[0] for sense in lexicon.all_senses() if sense.category == "ADJECTIVE"}
-        openers = self._addresses | self._refusals | self._openers
+        openers = self._addresses | self._refusals | self._openers | self._intensifiers | self._ones
         self._delicate = self._enumerators | self._benefactives | self._determiners | openers | adjectives
 
     def agreeing(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
@@ -54,6 +61,10 @@ class Neighbours:
             return (_PASSED_OVER,)  # "go first there, then there"
         if word in self._benefactives and before in self._to_do and after in self._determiners:
             return (_PASSED_OVER, *found)  # "find me a chair"
+        if word in self._intensifiers and before in self._nouns and after in self._places:
+            return (_PASSED_OVER, *found)  # "the box right behind you"
+        if word in self._ones and before in self._sides:
+            found = tuple(edge for edge in found if edge.length > 1 or edge.terminal not in _COUNTS)  # "the left one"
         if word in self._determiners and before in self._nouns:  # "exit the building" is no building
             found = tuple(edge for edge in found if edge.terminal is not None)
         return self._qualities(self._before_of(found, texts, at), texts, at)

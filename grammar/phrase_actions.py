@@ -10,7 +10,7 @@ from voxml.vocabulary import Reading
 from . import phrases
 from .arguments import Arg, Args, Kind
 from .machine import Action, Refused
-from .phrases import YOU, Pre, Such, pred_of
+from .phrases import YOU, Extreme, Pre, Such, pred_of
 
 _ALONE = frozenset({"through", "out_of", "past", "across", "around", "along", "over", "down", "up"})
 _IN_FRONT = Term("in_front_of", (YOU,))
@@ -41,8 +41,8 @@ def _event(readings: tuple[Reading, ...]) -> Arg:
     return Arg(Kind.EVENT, Term("event"), readings)
 
 
-def _of_what(of: Form, what: Form, be: Form, args: Args) -> Arg:
-    """ "(a picture) of what is on your left"."""
+def of_place(args: Args) -> Arg:
+    """ "(a picture of what is) on your left"."""
     return Arg(Kind.OF, Term("of", (where(args[0]),)))
 
 
@@ -75,6 +75,7 @@ ARGUMENT_ACTIONS: dict[str, Action] = {
     "quantity_more": _arg(Kind.QUANTITY),
     "vague": _arg(Kind.VAGUE),
     "number": _arg(Kind.NUMBER),
+    "number_by": lambda by, number: Arg(Kind.NUMBER, number),
     "times": lambda number, times: Arg(Kind.REPEAT, number),
     "repeat": _arg(Kind.REPEAT),
     "path": _path,
@@ -89,7 +90,7 @@ ARGUMENT_ACTIONS: dict[str, Action] = {
     "of": lambda of, what: Arg(Kind.OF, Term("of", (what,))),
     "of_quantity": lambda of, amount: Arg(Kind.QUANTITY, amount),
     "of_view": lambda of, view, *place: Arg(Kind.OF, Term("of", (view,))),
-    "of_what": _of_what,
+    "of_what": lambda of, what, be, args: of_place(args),
     "manner": _arg(Kind.MANNER),
     "way": lambda demonstrative, way: Arg(Kind.WAY, Term(pred_of(demonstrative), (Term("way"),))),
     "opposite": _arg(Kind.WAY),
@@ -136,6 +137,14 @@ NOUN_PHRASE_ACTIONS: dict[str, Action] = {
     "at_place": lambda place: place,
     "that_facing": lambda *parts: _IN_FRONT,
     "that_such": lambda that, quality: Such(quality),
+    "that_not_such": lambda that, mark, quality: Term("not", (quality,)),
+    "that_not": lambda that, mark, place: Term("not", (place,)),
+    "not_there": lambda mark, place: Term("not", (place,)),
+    "excepted": lambda mark, other: Term("not", (other,)),
+    "extreme_to": lambda ordering, place: Extreme(ordering, (place,)),
+    "that_extreme_to": lambda that, ordering, place: Extreme(ordering, (place,)),
+    "extreme_of": lambda ordering, relation, what: Extreme(ordering, (Term(pred_of(relation), (what,)),)),
+    "that_extreme_of": lambda that, ordering, relation, what: Extreme(ordering, (Term(pred_of(relation), (what,)),)),
     "seen": _seen,
     "where_thing": lambda that, thing, be, *post: Term("with", (thing, *post)),
     "where_seen": lambda that, you, see, thing: Term("with", (thing,)),

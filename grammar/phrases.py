@@ -47,17 +47,31 @@ class Such:
     quality: Term
 
 
-def nominal(noun: Form, pres: tuple[Pre, ...] = (), posts: tuple[Form | Such, ...] = ()) -> Nominal:
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """A superlative behind the noun: "the door (that is) closest to you"."""
+
+    ordering: Form
+    modifiers: tuple[Form, ...] = ()
+
+
+Post = Form | Such | Extreme
+
+
+def nominal(noun: Form, pres: tuple[Pre, ...] = (), posts: tuple[Post, ...] = ()) -> Nominal:
     """A noun with what was said before and after it."""
     plural = isinstance(noun, Term) and noun.pred == "plural"
     bare = noun.args[0] if isinstance(noun, Term) and plural else noun
     adjectives = tuple(pre.form for pre in pres if not pre.is_ordering and isinstance(pre.form, Term))
     adjectives += tuple(post.quality for post in posts if isinstance(post, Such))
-    orderings = tuple(pre.form for pre in pres if pre.is_ordering)
-    return Nominal(bare, plural, adjectives, orderings, tuple(post for post in posts if not isinstance(post, Such)))
+    extremes = tuple(post for post in posts if isinstance(post, Extreme))
+    orderings = tuple(pre.form for pre in pres if pre.is_ordering) + tuple(each.ordering for each in extremes)
+    modifiers = tuple(post for post in posts if not isinstance(post, Such | Extreme))
+    modifiers += tuple(modifier for each in extremes for modifier in each.modifiers)
+    return Nominal(bare, plural, adjectives, orderings, modifiers)
 
 
-def headless(pres: tuple[Pre, ...], posts: tuple[Form | Such, ...] = ()) -> Nominal:
+def headless(pres: tuple[Pre, ...], posts: tuple[Post, ...] = ()) -> Nominal:
     """ "the first", "the nearest on the left": a noun is understood; "the red" is not English for a thing."""
     if not any(pre.is_ordering and isinstance(pre.form, Term) for pre in pres):
         raise Refused("a noun")
@@ -66,9 +80,9 @@ def headless(pres: tuple[Pre, ...], posts: tuple[Form | Such, ...] = ()) -> Nomi
     return nominal(ONE, pres, posts)
 
 
-def places(posts: tuple[Form | Such, ...]) -> tuple[Form, ...]:
+def places(posts: tuple[Post, ...]) -> tuple[Form, ...]:
     """Modifiers without a noun: each must say where, since a quality needs something to be the quality of."""
-    found = tuple(post for post in posts if not isinstance(post, Such))
+    found = tuple(post for post in posts if not isinstance(post, Such | Extreme))
     if len(found) < len(posts):
         raise Refused("a thing or place")
     return found

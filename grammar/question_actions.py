@@ -14,6 +14,7 @@ from .phrase_actions import where
 from .phrases import YOU, Nominal, pred_of
 
 Posts = tuple[Form, ...]
+_FROM = frozenset({"from"})
 
 
 def _count_where(how_many: Form, what: Nominal, be: Form, posts: Posts) -> Form:
@@ -48,6 +49,12 @@ def _done_verb(readings: tuple[Reading, ...]) -> Form:
     return Term("done", (Term(readings[0].entry.lex.pred),))
 
 
+def _far(far: Form, what: Form) -> Form:
+    """ "how far is the door", "how far is the cone from the door"."""
+    parted = phrases.parted(what, _FROM)
+    return Term("distance", (what,) if parted is None else (parted[0], *parted[1].args))
+
+
 def _property(pred: str, at: int) -> Action:
     """A question for one property of what stands at this place in the rule."""
     return lambda *parts: Term(pred, (parts[at],))
@@ -70,7 +77,8 @@ QUESTION_ACTIONS: dict[str, Action] = {
     "q_count_where": _count_where,
     "q_exists_any": lambda there, posts: Term("exists", (Term("anything"), *phrases.places(posts))),
     "q_see": _property("exists", 1),
-    "q_far": _property("distance", 1),
+    "q_kind": _property("what", 4),
+    "q_far": _far,
     "q_far_place": _property("distance", 1),
     "q_property": lambda kind, what: Term(pred_of(kind), (what,)),
     "q_what": _property("what", 2),

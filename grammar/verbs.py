@@ -8,13 +8,14 @@ from voxml.terms import Form, Quantity, Term
 from voxml.vocabulary import Lexicon, Reading
 
 from .arguments import Arg, Args, ArgumentFitter, Kind
+from .looking import turning_to
 from .machine import Refused
+from .phrase_actions import of_place
 from .phrases import pred_of
 
 REPEATS_MAX = 20
 DEGREES_ALONE_MIN = 45
-_SIDES = (Term("left"), Term("right"))
-_BEHIND = Term("behind")
+_DIRECTIONS = (Kind.AXIS, Kind.SIDE, Kind.HEADING)
 _VERBLESS = ("turn", "go", "sidestep")  # what arguments alone can mean
 _LED = ("go", "turn")  # what they mean behind "can you"
 
@@ -25,12 +26,13 @@ class VerbActions:
     def __init__(self, lexicon: Lexicon) -> None:
         self._lexicon = lexicon
         self._fitter = ArgumentFitter(lexicon)
+        self._headings = frozenset(word.value for word in lexicon.closed.words_of("HEADING") if word.value is not None)
 
     def verb(self, readings: Any, args: Args = ()) -> Form:
         """A verb with its arguments; light verbs leave the meaning to their noun ("take a picture")."""
         events = [arg for arg in args if arg.kind is Kind.EVENT]
         rest = tuple(arg for arg in args if arg.kind is not Kind.EVENT)
-        if len(events) > 1:
+        if any(each.readings != events[0].readings for each in events):
             raise Refused("one thing to do")
         if events:
             return self._done(readings, events[0], rest)
@@ -64,10 +66,34 @@ class VerbActions:
 
     def verbless(self, args: Args) -> Form | None:
         """What arguments without a verb say all of: a side with an angle, a way with a distance, two pictures."""
-        events = [arg for arg in args if arg.kind is Kind.EVENT]
-        if events and all(arg.kind in (Kind.EVENT, Kind.NUMBER, Kind.OF) for arg in args):
-            return self._done(None, events[0], tuple(arg for arg in args if arg is not events[0]))
-        return self._fitter.implied(args, _VERBLESS)
+        event = next((arg for arg in args if arg.kind is Kind.EVENT), None)
+        if event is not None:
+            rest = tuple(arg for arg in args if arg.kind is not Kind.EVENT)
+            looking = self._looking(event.readings, rest)
+            if looking is None and all(arg.kind in (Kind.NUMBER, Kind.OF) for arg in rest):
+                return self._done(None, event, rest)
+            return looking
+        said = self._fitter.implied(args, _VERBLESS)
+        return self._in_turn(args) if said is None else said
+
+    def _in_turn(self, args: Args) -> Form | None:
+        """ "forward two feet, left forty five degrees": one thing to do for each direction."""
+        starts = [at for at, arg in enumerate(args) if arg.kind in _DIRECTIONS]
+        if len(starts) < 2 or starts[0]:
+            return None
+        ends = (*starts[1:], len(args))
+        steps = [self._fitter.implied(args[at:end], _VERBLESS) for at, end in zip(starts, ends, strict=True)]
+        return None if None in steps else Term("seq", tuple(step for step in steps if step is not None))
+
+    def shown(self, show: Form, what: Form, be: Form, args: Args) -> Form:
+        """ "show me what is behind you"."""
+        return self._done(None, Arg(Kind.EVENT, show, self._readings(pred_of(show))), (of_place(args),))
+
+    def shown_view(self, show: Form, view: Form) -> Form:
+        """ "show me what you see"."""
+        return self._done(
+            None, Arg(Kind.EVENT, show, self._readings(pred_of(show))), (Arg(Kind.OF, Term("of", (view,))),)
+        )
 
     def nearing(self, readings: Any, closer: Form, what: Form) -> Form:
         """ "move closer to the table"."""
@@ -108,27 +134,16 @@ class VerbActions:
         return self._fitter.program(verb, (Arg(Kind.PHRASE, named), *args))
 
     def _looking(self, event: tuple[Reading, ...], args: Args) -> Form | None:
-        """What is to be done towards a side begins with turning there: "take a picture to your left"."""
-        sides = [arg for arg in args if arg.kind is Kind.SIDE or _side_of(arg) is not None]
-        takes_side = any("side" in slot.types for reading in event for slot in reading.entry.args)
-        if len(sides) != 1 or takes_side:
+        """The event with turning to where it is to be done; None where it is to be done here, or turns by itself."""
+        turnings = [(arg, turning) for arg in args if (turning := turning_to(arg, self._headings)) is not None]
+        turns = any("side" in slot.types for reading in event for slot in reading.entry.args)
+        if len(turnings) != 1 or turns:
             return None
-        side = sides[0].form if sides[0].kind is Kind.SIDE else _side_of(sides[0])
-        turning = Term("turn_around") if side is None or side == _BEHIND else Term("turn", (side,))
-        return Term("seq", (turning, self._fitter.program(event, tuple(arg for arg in args if arg not in sides))))
+        where, turning = turnings[0]
+        return Term("seq", (turning, self._fitter.program(event, tuple(arg for arg in args if arg is not where))))
 
     def _readings(self, *preds: str) -> tuple[Reading, ...]:
         return tuple(Reading(self._lexicon.programs[pred]) for pred in preds)
-
-
-def _side_of(arg: Arg) -> Form | None:
-    """The side of "(a picture) of what is on your left" or "behind you"."""
-    match arg.kind, arg.form:
-        case Kind.OF, Term(_, (Term("on", (Term() as side,)),)) if side in _SIDES:
-            return side
-        case Kind.OF, Term(_, (Term("behind", (Term("you"),)),)):
-            return _BEHIND
-    return None
 
 
 def _is_small(arg: Arg) -> bool:

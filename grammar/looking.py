@@ -1,0 +1,56 @@
+"""What is done towards somewhere begins with turning there: "a picture of what is behind you"."""
+
+from __future__ import annotations
+
+from voxml.terms import Form, Term
+
+from .arguments import Arg, Kind, head_noun
+from .phrases import YOU
+
+_SIDES = (Term("left"), Term("right"))
+_BEHIND = Term("behind", (YOU,))
+_SCENES = frozenset(
+    {"area", "side", "view", "surroundings", "spot", "scene"}
+)  # nothing by themselves but where they are
+
+
+def turning_to(arg: Arg, headings: frozenset[Form]) -> Form | None:
+    """The program that turns to what the argument says; None where it says no direction."""
+    match arg.kind, arg.form:
+        case Kind.SIDE, side:
+            return Term("turn", (side,))
+        case Kind.HEADING, heading:
+            return Term("face", (heading,))
+        case Kind.FACING, Term("facing", (place,)):
+            return Term("face", (place,))
+        case Kind.OF | Kind.LOCATION, Term("of", (place,)):
+            return _turning(place, headings)
+        case Kind.LOCATION, place:
+            return _turning(place, headings)
+    return None
+
+
+def _turning(place: Form, headings: frozenset[Form]) -> Form | None:
+    if place in headings:
+        return Term("face", (place,))
+    match place:
+        case Term("on", (Term() as side,)) if side in _SIDES:
+            return Term("turn", (side,))
+        case Term("to" | "facing", (Term() as heading,)) if heading in headings:
+            return Term("face", (heading,))
+        case Term("the" | "a", (core, *modifiers)) if _scene(place):
+            found = (_turning(each, headings) for each in (*_side_of(core), *modifiers))
+            return next((turning for turning in found if turning is not None), None)
+    return Term("turn_around") if place == _BEHIND else None
+
+
+def _scene(phrase: Form) -> bool:
+    return head_noun(phrase) in _SCENES
+
+
+def _side_of(core: Form) -> tuple[Form, ...]:
+    """The "left" of "the left side", as a place."""
+    match core:
+        case Term(side, (_,)) if Term(side) in _SIDES:
+            return (Term("on", (Term(side),)),)
+    return ()
