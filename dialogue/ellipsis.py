@@ -101,6 +101,13 @@ def _reversed(form: Form) -> Form | None:
     return Term("go", (Term("back"), *form.args)) if form.pred == "go" and not _leads(form) else None
 
 
+def opposite_way(form: Form) -> Term | None:
+    """The opposite of the way that was gone or turned; None where there was none."""
+    ways = (leaf.pred for leaf in _leaves(form) if isinstance(leaf, Term) and leaf.pred in _OPPOSITE)
+    way = next(ways, None)
+    return None if way is None else Term(_OPPOSITE[way])
+
+
 def _leads(form: Term) -> bool:
     """Whether it goes to some place rather than some way."""
     return any(isinstance(arg, Term) and arg.args for arg in form.args)

@@ -60,6 +60,8 @@ def see_gesture(turn: Turn, event: Gesture) -> None:
             thumb_up(turn, event.time_s)
         case GestureKind.THUMBS_DOWN:
             no(turn, event.time_s)
+        case GestureKind.CLAW:
+            obey(turn, (instruct(Term("pick_up", (Term("this"),))),), event.time_s)
         case GestureKind.BECKON:
             obey(turn, (instruct(Term("come_here")),), event.time_s)
         case kind if kind in _SIDES and not (event.at_view or turn.session.holds_camera):

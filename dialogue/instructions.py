@@ -115,8 +115,12 @@ def _send(turn: Turn, made: Plan, acts: tuple[DialogueAct, ...]) -> None:
         if movements:
             past = Past(tuple(act.form for act in acts), made.commands, start, ids)
             turn.update(history=(*turn.session.history, past)[-HISTORY_MAX:])
-    elif made.then is not None:
-        turn.say("Okay.")
+    elif not made.events:
+        turn.say("Okay." if made.then is not None or all(map(_forbids, acts)) else "There is nothing to do for that.")
+
+
+def _forbids(act: DialogueAct) -> bool:
+    return isinstance(act.form, Term) and act.form.pred == "not"
 
 
 def _moves(command: Command) -> bool:

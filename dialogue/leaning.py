@@ -7,12 +7,14 @@ from dataclasses import replace
 from grammar.forms import Form, Name, Term
 from grounding.pointing import point_form
 
+from .ellipsis import opposite_way
 from .session import Past, Routine, Session
 from .table import Activity
 
 _HERE_M = 0.6  # "there" is not where the robot is
 _THERE = Term("there")
 _GO_BACK = Term("go_back")
+_OTHER_WAY = Term("other", (Term("way"),))
 _SAME_SPOT = Term("the", (Term("same", (Term("spot"),)),))
 
 
@@ -31,6 +33,8 @@ def leaned(form: Form, session: Session) -> Form:
         return form if session.last is None else point_form(session.last.start.point)
     if form == Term("go_back"):
         return _returned(session)
+    if form == _OTHER_WAY:
+        return (session.last and opposite_way(session.last.form)) or form
     if form in (_THERE, _SAME_SPOT):
         return _spoken_of(session) or form
     if form.pred in ("that", "those") and session.world.focus and not _points(form):

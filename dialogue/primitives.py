@@ -31,10 +31,11 @@ from voxml.vocabulary import Lexicon
 
 from .affordances import check_afforded, check_thing
 from .plans import COMMANDS_MAX, Refusal, Refused, Stops
-from .programs import is_amount
+from .programs import is_amount, is_way
 
 _ANGLE_STEP_DEG = 0.1  # what a turn that was computed is rounded to
 _HOUR_DEG = 30.0
+_QUARTER_DEG = 90.0
 _PLACE_DECIMALS = 3
 _LITTLE = {Unit.METRE: 0.3, Unit.DEGREE: 15.0}  # "a little": about the robot's own length, and a glance aside
 
@@ -98,8 +99,17 @@ class Draft:
         return round(free_way_m(heading, self.world.walls), 2)
 
     def rotate(self, form: Term) -> None:
-        """``rotate([side,]angle)``: without a side only half and full turns say which way does not matter."""
-        angle_deg = _quantity(form, Unit.DEGREE, 90.0)
+        """``rotate([side,]angle)``: without a side only half and full turns say which way does not matter.
+
+        A way that was pointed out is turned to, or, by another than the usual angle, only towards.
+        """
+        angle_deg = _quantity(form, Unit.DEGREE, _QUARTER_DEG)
+        for way in (term for term in _terms(form) if is_way(term)):
+            if angle_deg == _QUARTER_DEG:
+                self._face(self.meant(way)[0])
+            else:
+                self.add(Turn(self._side_of(self.meant(way)[0]), angle_deg))
+            return
         sides = [Side(term.pred) for term in _terms(form) if term.pred in ("left", "right")]
         if not sides and math.fmod(angle_deg, 180.0):
             raise Stops(Refused(Refusal.NO_SIDE, form))
@@ -128,13 +138,20 @@ class Draft:
         elif right_deg:
             self.add(Turn(Side.RIGHT, right_deg))
 
-    def _face(self, target: Meant) -> None:
+    def _side_of(self, target: Meant) -> Side:
+        return Side.LEFT if self._off_deg(target) > 0 else Side.RIGHT
+
+    def _off_deg(self, target: Meant) -> float:
+        """How far to the left a target is of where the robot looks."""
         here = self.world.robot
         if isinstance(target, Heading):
             yaw_rad = target.yaw_rad
         else:
             yaw_rad = here.point.bearing_to(target.point if isinstance(target, Entity) else target)
-        steps = round(math.degrees(wrap_angle(yaw_rad - here.yaw_rad)) / _ANGLE_STEP_DEG)
+        return math.degrees(wrap_angle(yaw_rad - here.yaw_rad))
+
+    def _face(self, target: Meant) -> None:
+        steps = round(self._off_deg(target) / _ANGLE_STEP_DEG)
         if steps:
             self.add(Turn(Side.LEFT if steps > 0 else Side.RIGHT, round(abs(steps) * _ANGLE_STEP_DEG, 1)))
 

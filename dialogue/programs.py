@@ -38,7 +38,8 @@ def _is_bare(form: Form, preds: frozenset[str]) -> bool:
     return isinstance(form, Term) and not form.args and form.pred in preds
 
 
-def _is_way(form: Form) -> bool:
+def is_way(form: Form) -> bool:
+    """ "This way", "that way"."""
     return isinstance(form, Term) and bool(form.args) and form.args[0] == Term("way")
 
 
@@ -59,7 +60,7 @@ _FITS: Mapping[str, Callable[[Form], bool]] = {
     "side": lambda form: _is_bare(form, _SIDES),
     "rotation": lambda form: _is_bare(form, _SIDES),
     "heading": lambda form: _is_bare(form, frozenset(COMPASS_RAD)),
-    "way": _is_way,
+    "way": is_way,
     "path": _is_path,
     "name": lambda form: isinstance(form, Name),
 }

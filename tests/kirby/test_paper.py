@@ -1,0 +1,28 @@
+"""Every utterance quoted in the paper, and its scenario, said to Kirby in pybullet; and the transcript in the docs."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+from paper import SCENES, Rehearsal, Scene, section
+from stage import stage
+
+DOCUMENT = Path(__file__).parents[2] / "docs" / "paper-dialogues.md"
+
+
+@pytest.mark.physics
+@pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.play.__name__)
+def test_a_dialogue_of_the_paper(tmp_path: Path, scene: Scene) -> None:
+    with stage(tmp_path, scene.world) as made:
+        kirby = Rehearsal(made)
+        scene.play(kirby)
+        assert made.body.contacts() == ()
+    written = DOCUMENT.read_text(encoding="utf-8")
+    assert _without_figures(section(scene, kirby)) in _without_figures(written), "run: script/paper-dialogues"
+
+
+def _without_figures(text: str) -> str:
+    """Where exactly the robot came to stand may differ by a hair from machine to machine."""
+    return re.sub(r"-?\d+(\.\d+)?", "#", text)
