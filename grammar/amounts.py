@@ -44,7 +44,15 @@ class AmountReader:
         return token in self._starters or self.numbers.may_start(token)
 
     def is_unit(self, token: str) -> bool:
-        return any(len(words) == 1 for words, _ in self._units.get(token, ()))
+        return self.unit_of(token) is not None
+
+    def unit_of(self, token: str) -> Quantity | None:
+        """One of the unit that the word is by itself."""
+        return next((quantity for words, quantity in self._units.get(token, ()) if len(words) == 1), None)
+
+    def may_belong(self, token: str) -> bool:
+        """Whether the word may stand inside an amount, before its unit: "a", "and", "point", "more"."""
+        return token in self._more or self.numbers.may_belong(token)
 
     def amount(self, tokens: Sequence[str], at: int) -> tuple[Amount, int] | None:
         """A number with its unit: "five feet", "another half a meter", "ten more degrees", "3 ft 2 in"."""
@@ -198,9 +206,10 @@ class AmountReader:
 
 
 def _replaced(first: float, second: float) -> float:
-    """ "two three (feet)": the second number replaces the first; of "a hundred and twenty thirty" only the tens."""
-    hundreds = first - first % 100
-    return hundreds + second if hundreds < first and 10 <= second < 100 <= first else second
+    """The number that a second one turns the first into: "two three" is three, "a hundred and twenty thirty" 130, and
+    "twenty five six" 26: the digits that were said anew."""
+    scale = 10.0 if second < 10 else 100.0
+    return first - first % scale + second if first > scale and first % scale and second < scale else second
 
 
 def _divides(smaller: Quantity, unit: Quantity) -> bool:

@@ -31,6 +31,22 @@ class NumberReader:
         """Whether a number can begin with this token."""
         return token in self._starters or token[0].isdigit() or (token[0] == "." and len(token) > 1)
 
+    def may_belong(self, token: str) -> bool:
+        """Whether the word may stand inside a number: besides those it can begin with, "and", "of", "oh"."""
+        words = self._words
+        return self.may_start(token) or token in words.joining or token in words.of or token in words.inner_zero
+
+    def is_spelt(self, tokens: Sequence[str], at: int) -> bool:
+        """Whether the word is one of at least three different digits said one by one, or of those behind a point."""
+        start = end = at
+        while start and self._words.digit(tokens[start - 1]):
+            start -= 1
+        while end < len(tokens) and self._words.digit(tokens[end]):
+            end += 1
+        if start and tokens[start - 1] in self._words.point:
+            return True
+        return end - start > 2 and len(set(tokens[start:end])) > 1
+
     def number(self, tokens: Sequence[str], at: int) -> Read | None:
         """The longest number that begins here, with its end."""
         if at >= len(tokens) or not self.may_start(tokens[at]):

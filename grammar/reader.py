@@ -22,7 +22,7 @@ from .tokens import Token, Tokenizer
 from .word_edges import DERIVED_TERMINALS, WordReader
 
 TEXT_MAX_CHARS = 2_000
-_LEADING = ("SIDE", "AXIS", "HEADING", "VAGUE", "AGAIN")
+_LEADING = ("SIDE", "AXIS", "HEADING", "VAGUE")
 
 
 class Reader:
@@ -46,10 +46,14 @@ class Reader:
         if len(text) > TEXT_MAX_CHARS:
             return NotUnderstood((TEXT_MAX_CHARS, len(text)), (f"at most {TEXT_MAX_CHARS} characters",))
         tokens, corrects = self._fluency.clean(self._tokenizer(text))
-        search = Search(self.lattice(tokens), self._machine, self._leading)
+        search = self._search(tokens)
         clauses = search.clauses()
         if not clauses:
-            return self._not_understood(text, tokens, search.trace)
+            failure = self._not_understood(text, tokens, search.trace)
+            fewer = self._fluency.cleaned_again(tokens)
+            clauses, tokens = self._search(fewer).clauses() if fewer != tokens else None, fewer
+            if not clauses:
+                return failure
         return tuple(
             DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end))
             for clause in self._composer.composed(clauses, corrects)
@@ -58,6 +62,9 @@ class Reader:
     def tokens(self, text: str) -> tuple[Token, ...]:
         """The words that are read: without hesitations, repetitions and what was taken back."""
         return self._fluency.clean(self._tokenizer(text))[0]
+
+    def _search(self, tokens: tuple[Token, ...]) -> Search:
+        return Search(self.lattice(tokens), self._machine, self._leading)
 
     def lattice(self, tokens: tuple[Token, ...]) -> Lattice:
         """The ways to read them, by the lexicon."""

@@ -1,0 +1,106 @@
+"""Hesitations: filled pauses ("uh"), words drawn out ("leeeft"), and phrases that only keep the turn ("like")."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from voxml.words import ClosedClasses
+
+from .fixed_phrases import FixedPhrases
+from .known_words import KnownWords
+from .tokens import MARKS, Token
+
+_DRAWN_OUT = re.compile(r"([^\W\d_])\1{2,}")
+_DOUBLED = re.compile(r"([^\W\d_])\1+")
+
+
+class Hesitations:
+    """Takes hesitations out of utterances; ``words`` are those of the same language as ``closed``."""
+
+    def __init__(self, closed: ClosedClasses, words: KnownWords) -> None:
+        self._words = words
+        self._filled = frozenset(_DOUBLED.sub(r"\1", filler) for filler in words.fillers)
+        self.editing = words.fillers & closed.table("edit_weak").keys()
+        self._discourse = FixedPhrases.of(closed, "discourse")
+        self.words = words.fillers | self._discourse.first_words
+
+    def without(self, tokens: Sequence[Token]) -> tuple[list[Token], frozenset[int]]:
+        """The tokens without filled pauses, and where (in characters) what follows one begins."""
+        texts = [token.text for token in tokens]
+        kept: list[Token] = []
+        halted: set[int] = set()
+        for at, token in enumerate(tokens):
+            if self._is_filled_pause(texts, at):
+                if at + 1 < len(tokens):
+                    halted.add(tokens[at + 1].start)
+                continue
+            kept.append(replace(token, text=self._as_known(token.text)))
+        return self._amounts_closed(kept), frozenset(halted)
+
+    def is_filled_pause(self, word: str) -> bool:
+        """ "uh", "errr", "hmm"; not "mm", which are millimetres where a number of them is written."""
+        if word in self._words.fillers:
+            return True
+        return not self._words.is_word(word) and len(word) > 1 and _DOUBLED.sub(r"\1", word) in self._filled
+
+    def _is_filled_pause(self, texts: Sequence[str], at: int) -> bool:
+        word = texts[at]
+        if not self.is_filled_pause(word):
+            return False
+        if at and self._words.is_unit(word) and texts[at - 1][-1].isdigit():
+            return False
+        return not (word in self.editing and self._may_repair(texts, at))
+
+    def _may_repair(self, texts: Sequence[str], at: int) -> bool:
+        """Whether "er" may be an editing term, as in "left er right"; "back er up" is one verb, and numbers add up."""
+        after = next((text for text in texts[at + 1 :] if text not in MARKS), "")
+        if not at or not after or self._words.is_number(after):
+            return False
+        return not self._words.is_phrase((texts[at - 1], after), "VERB")
+
+    def _as_known(self, word: str) -> str:
+        """A word that was drawn out, as it is known: "sssstop", "leeeft"."""
+        if self._words.is_word(word) or not _DRAWN_OUT.search(word):
+            return word
+        shortened = (_DRAWN_OUT.sub(r"\1\1", word), _DRAWN_OUT.sub(r"\1", word))
+        return next((each for each in shortened if len(each) > 1 and self._words.is_word(each)), word)
+
+    # ------------------------------------------------------------ phrases that keep the turn
+    def _amounts_closed(self, tokens: list[Token]) -> list[Token]:
+        """Amounts without what interrupts them: "ten like feet", "a hundred okay and eighty degrees"."""
+        at = 1
+        while at < len(tokens) - 1:
+            texts = [token.text for token in tokens]
+            length = self._discourse.length(texts, at)
+            if length and self._interrupts_amount(texts, at, at + length):
+                del tokens[at : at + length]
+            else:
+                at += 1
+        return tokens
+
+    def _interrupts_amount(self, texts: Sequence[str], start: int, end: int) -> bool:
+        """Whether the number before ``start`` goes on at ``end``, or its unit stands there."""
+        amounts = self._words.amounts
+        begin = start
+        while begin and amounts.may_belong(texts[begin - 1]):
+            begin -= 1
+        closed = [*texts[begin:start], *texts[end:]]
+        for first in range(start - begin):
+            found = amounts.amount(closed, first) or amounts.numbers.number(closed, first)
+            if found is not None:
+                return found[1] > start - begin
+        return False
+
+    def without_discourse(self, tokens: Sequence[Token]) -> list[Token]:
+        """The tokens without any phrase that may only keep the turn, and without any filled pause."""
+        texts = [token.text for token in tokens]
+        kept: list[Token] = []
+        at = 0
+        while at < len(tokens):
+            length = self._discourse.length(texts, at)
+            if not length and not self.is_filled_pause(texts[at]):
+                kept.append(tokens[at])
+            at += length or 1
+        return kept
