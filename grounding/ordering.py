@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from grammar.forms import Term
 
-from .entities import NO_ROWS, Rows
+from .entities import NO_ROWS, Entity, Rows
 from .outcomes import Reason, Unresolved
-from .relations import distances_m, local_m, meeting_key_m
+from .relations import REGIONS, distances_m, gap_m, local_m, meeting_key_m
 from .world import World
 
 ORDINALS = {
@@ -74,6 +74,7 @@ _COUNTED_FROM: Mapping[str, Callable[[World, Rows], Keys]] = {
     "end": _opposite(_met),
     "back": _opposite(_met),
 }
+_BY_DISTANCE = frozenset({"nearest", "farthest"})
 _CHOICES = frozenset({"last", "next", "previous", "middle", "only", "other", "same"})
 ORDERINGS = frozenset(ORDINALS) | frozenset(EXTREMES) | _CHOICES
 
@@ -88,13 +89,36 @@ def counted_from(modifier: Term) -> str | None:
     return origin.pred if isinstance(origin, Term) and origin.pred in _COUNTED_FROM else None
 
 
+def measured_from(ordering: str | None, modifier: Term) -> Term | None:
+    """The landmark in "nearest to the door", "farthest from the wall"; None for the robot, and for other modifiers."""
+    if ordering not in _BY_DISTANCE or modifier.pred not in ("to", "from") or len(modifier.args) != 1:
+        return None
+    (landmark,) = modifier.args
+    return landmark if isinstance(landmark, Term) and landmark.pred not in REGIONS else None
+
+
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """``origin`` is where counting begins (None: along the robot's way); ``count`` is how many are wanted (None: 1)."""
+    """What is picked of things that fit.
+
+    ``origin`` is where counting begins (None: along the robot's way); ``landmarks`` are what "nearest" and "farthest"
+    are measured from (none: the robot); ``count`` is how many are wanted (None: one).
+    """
 
     ordering: str
     origin: str | None = None
+    landmarks: tuple[Entity, ...] = ()
     count: int | None = None
+
+    def key(self, world: World, rows: Rows) -> Keys:
+        """The smallest are picked first."""
+        if self.landmarks:
+            gaps_m = np.array([gap_m(each, world.entities.xy_m[rows]) for each in self.landmarks])
+            if self.ordering == "farthest":
+                return np.asarray(-gaps_m.min(axis=0))
+            return np.asarray(np.where(gaps_m > 0, gaps_m, np.inf).min(axis=0))  # nothing is nearest to itself
+        counted = _COUNTED_FROM[self.origin] if self.origin else _met
+        return EXTREMES.get(self.ordering, counted)(world, rows)
 
 
 def pick(form: Term, choice: Choice, rows: Rows, world: World) -> Rows | Unresolved:
@@ -108,9 +132,9 @@ def pick(form: Term, choice: Choice, rows: Rows, world: World) -> Rows | Unresol
     if not len(rows):
         return rows if ordering not in ORDINALS else Unresolved(Reason.TOO_FEW, form, 0)
     if ordering in EXTREMES:
-        key = EXTREMES[ordering](world, rows)
+        key = choice.key(world, rows)
         return np.extract(key <= key.min() + 1e-6, rows)
-    key = (_COUNTED_FROM[origin] if origin else _met)(world, rows)
+    key = choice.key(world, rows)
     rank = ORDINALS.get(ordering)
     if rank is None:
         return _chosen(ordering, origin, key, rows, world)
@@ -127,8 +151,7 @@ def _several(form: Term, choice: Choice, rows: Rows, world: World) -> Rows | Unr
     assert choice.count is not None
     if choice.count > len(rows):
         return Unresolved(Reason.TOO_FEW, form, len(rows))
-    key = EXTREMES.get(choice.ordering, _COUNTED_FROM[choice.origin] if choice.origin else _met)(world, rows)
-    order = rows[np.argsort(key, kind="stable")]
+    order = rows[np.argsort(choice.key(world, rows), kind="stable")]
     return order[-choice.count :] if choice.ordering == "last" else order[: choice.count]
 
 

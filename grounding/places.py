@@ -20,7 +20,7 @@ BEFORE = frozenset({"path.goal", "path.direction", "path.via", "RCC8.DC", "RCC8.
 """Relations whose place, for a thing that one can stand before, is where one stands before it."""
 
 _INTO = frozenset({"path.in", "path.goal", "RCC8.NTPP"})
-_OVER = frozenset({"path.across", "path.through", "path.along", "path.past"})
+_OVER = frozenset({"path.across", "path.through", "path.along", "path.past", "path.down", "path.up"})
 _BEYOND_M = 0.8  # behind a doorway
 _OPPOSITE_M = 1.5  # across a hallway's width
 _OPEN_M = 5.0  # where the map shows no wall ahead

@@ -14,7 +14,7 @@ from voxml.vocabulary import Lexicon
 from .descriptions import DEFINITE, EXCLUDING, INDEFINITE, PLURAL, Description, attachments, describe
 from .entities import NO_ROWS, Entity, Rows
 from .modifying import Failure, Setting, clearest, modified
-from .ordering import Choice, counted_from, pick
+from .ordering import Choice, counted_from, measured_from, pick
 from .outcomes import Ambiguous, Grounded, Heading, Reason, Resolution, Unresolved
 from .parts import part_place, whole_of
 from .pointing import likely_rows, pointed_place, pointed_ray, read_point
@@ -154,17 +154,16 @@ def _reading(description: Description, chain: tuple[Term, ...], world: World, le
     description, within = searched(replace(description, modifiers=chain), world)
     rows = noun_rows(description, within)
     setting = Setting(within, lexicon, lambda form: resolve(form, world, lexicon))
-    origin = next(filter(None, map(counted_from, chain)), None) if description.ordering else None
-    restricting = tuple(modifier for modifier in chain if origin is None or counted_from(modifier) is None)
+    choice, restricting = _choice(description, setting)
     for modifier in restricting:
         rows = modified(modifier, rows, setting)
     if description.determiner in EXCLUDING and world.focus:
         rows = np.extract(rows != within.entities.index.get(world.focus[0], -1), rows)
     if description.noun == ONE and not description.pointings:
         rows = _of_the_kind_spoken_of(rows, within)
-    if description.ordering is not None:
+    if choice is not None:
         assert isinstance(description.form, Term)
-        picked = pick(description.form, Choice(description.ordering, origin, description.count), rows, within)
+        picked = pick(description.form, choice, rows, within)
         if isinstance(picked, Unresolved):
             return picked
         rows = picked
@@ -172,6 +171,22 @@ def _reading(description: Description, chain: tuple[Term, ...], world: World, le
         for modifier in restricting:
             rows = clearest(modifier, rows, setting)
     return _determined(description, rows, within)
+
+
+def _choice(description: Description, setting: Setting) -> tuple[Choice | None, tuple[Term, ...]]:
+    """What the ordering asks for, with what it counts or measures from; and the modifiers that it leaves."""
+    ordering, left, origin, landmarks = description.ordering, list[Term](), None, tuple[Entity, ...]()
+    if ordering is None:
+        return None, description.modifiers
+    for modifier in description.modifiers:
+        landmark = measured_from(ordering, modifier)
+        if counted_from(modifier) is not None:
+            origin = counted_from(modifier)
+        elif landmark is not None:
+            landmarks += setting.landmarks(landmark)
+        else:
+            left.append(modifier)
+    return Choice(ordering, origin, landmarks, description.count), tuple(left)
 
 
 def _of_the_kind_spoken_of(rows: Rows, world: World) -> Rows:

@@ -284,6 +284,11 @@ def test_nothing_is_on_both_sides(where: list[tuple[float, float]], at: tuple[fl
         ("a(one,of(the(plural(box))))", ["4"]),
         ("and(the(red(block)),the(yellow(box)))", ["1", "4"]),
         ("the(box,past(the(wastebasket)))", ["5"]),
+        ("the(nearest(box,to(the(wastebasket))))", ["5"]),
+        ("the(farthest(fiducial,from(the(green(box)))))", ["2"]),
+        ("the(nearest(fiducial,to(the(blue(block)))))", ["4"]),
+        ("the(farthest(block,from(you)))", ["2"]),
+        ("the(nearest(block,on(left),to(the(box))))", ["2"]),
         ("the(wastebasket,past(the(red(block))))", ["3"]),
     ],
 )
