@@ -217,7 +217,7 @@ class Robot:
             self._feed(Estimated())
         if drive.state is not State.ACTIVE:
             self._target = None
-            self._feed(Arrived() if drive.state is State.ARRIVED else Failed())
+            self._feed(Arrived(drive.moved_to) if drive.state is State.ARRIVED else Failed())
 
     def _show_path(self, path: tuple[Point, ...]) -> None:
         if self._window is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .messages import COMMAND_MAX_CHARS, ID_MAX_CHARS, Malformed, decode_entry, decode_object
+from .messages import ENTRY_MAX_CHARS, ID_MAX_CHARS, Malformed, decode_entry, decode_object
 from .port import Entry
 from .queue import Garbled, Orphaned, Received
 
@@ -24,7 +24,7 @@ def read_orphan(entry: Entry) -> Orphaned:
 def _id_of(text: bytes) -> str | None:
     """The id of an envelope whose command is not readable: its sender wants to know."""
     try:
-        id = decode_object(text, 2 * (COMMAND_MAX_CHARS + ID_MAX_CHARS)).get("id")  # noqa: A001 - the wire's word
+        id = decode_object(text, ENTRY_MAX_CHARS).get("id")  # noqa: A001 - the wire's word
     except Malformed:
         return None
     return id if isinstance(id, str) and 0 < len(id) <= ID_MAX_CHARS else None

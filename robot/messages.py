@@ -20,6 +20,7 @@ from .geometry import Point, Pose, Segment
 
 COMMAND_MAX_CHARS = 200
 ID_MAX_CHARS = 64
+ENTRY_MAX_CHARS = COMMAND_MAX_CHARS + 12 * ID_MAX_CHARS + 100  # JSON may write a character as two escapes of six
 MESSAGE_MAX_CHARS = 1_000_000
 DISTANCE_MAX_M = 100.0
 COORDINATE_MAX_M = 1_000.0
@@ -249,7 +250,7 @@ def decode_entry(entry: str | bytes) -> Envelope:
             raise Malformed("entry is not UTF-8 text") from None
     if entry.lstrip()[:1] != "{":
         return Envelope(decode_command(entry))
-    data = decode_object(entry, COMMAND_MAX_CHARS + ID_MAX_CHARS + 100)
+    data = decode_object(entry, ENTRY_MAX_CHARS)
     if set(data) != {"id", "command"} or not all(isinstance(v, str) for v in data.values()):
         raise Malformed('envelope must be {"id": "...", "command": "..."}')
     if not 0 < len(data["id"]) <= ID_MAX_CHARS:
@@ -307,8 +308,8 @@ _MESSAGES: dict[FeedbackCode, str] = {
     FeedbackCode.ESTIMATE_ROTATION: "estimating rotation",
     FeedbackCode.VERIFY_ROTATION: "verifying rotation",
     FeedbackCode.GO_BACK: "returning to previous location ({x}, {y})",
-    FeedbackCode.SUCCESS_FORWARD: "successfully navigated to ({x}, {y})",
-    FeedbackCode.SUCCESS_GO_TO: "successfully navigated to ({x}, {y})",
+    FeedbackCode.SUCCESS_FORWARD: "successfully navigated to ({x}, {y}){detail}",
+    FeedbackCode.SUCCESS_GO_TO: "successfully navigated to ({x}, {y}){detail}",
     FeedbackCode.SUCCESS_ESTIMATE_ROTATION: "completed estimated rotation",
     FeedbackCode.SUCCESS_VERIFY_ROTATION: "verified rotation",
     FeedbackCode.SUCCESS_GO_BACK: "returned to previous location",

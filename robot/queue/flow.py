@@ -35,6 +35,7 @@ from .step import Step
 
 QUEUE_MAX = 100
 STRAYED_M = 0.5
+MOVED = ", the nearest free place"
 
 _SUCCESS: dict[type[Command], FeedbackCode] = {
     GoForward: FeedbackCode.SUCCESS_FORWARD,
@@ -59,7 +60,7 @@ def handle(state: QueueState, event: Event, here: Here) -> tuple[QueueState, tup
         case Estimated():
             _estimated(step)
         case Arrived() | Failed():
-            _finished(step, isinstance(event, Arrived))
+            _finished(step, event)
         case PictureTaken(entry, path):
             _pictured(step, entry, FeedbackCode.PICTURE, path)
         case PictureFailed(entry):
@@ -171,14 +172,15 @@ def _estimated(step: Step) -> None:
         step.tell(FeedbackCode.VERIFY_ROTATION, id=current.goal.id)
 
 
-def _finished(step: Step, arrived: bool) -> None:
+def _finished(step: Step, event: Arrived | Failed) -> None:
     current = step.state.current
     if step.state.mode is not Mode.MOVING or current is None or not current.goal.moves:
         return
     if current.patrols:
-        _patrol_on(step, current, arrived)
-    elif arrived:
-        step.end(current.goal, _SUCCESS[type(current.goal.command)])
+        _patrol_on(step, current, isinstance(event, Arrived))
+    elif isinstance(event, Arrived):
+        word = "" if event.moved_to is None else MOVED
+        step.end(current.goal, _SUCCESS[type(current.goal.command)], at=event.moved_to, detail=word)
         step.state = replace(step.state, anchor=current.goal.end)
         step.go_next()
     else:

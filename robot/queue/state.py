@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 
-from robot.geometry import Pose
+from robot.geometry import Point, Pose
 from robot.messages import Command, Control, Envelope, Feedback, Patrol, Turn
 from robot.navigation.goals import Goal as Target
 
@@ -147,7 +147,9 @@ class Estimated:
 
 @dataclass(frozen=True, slots=True)
 class Arrived:
-    """The target of the last ``Begin`` is reached."""
+    """The target of the last ``Begin`` is reached; ``moved_to`` is the place that stood in for one without room."""
+
+    moved_to: Point | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from robot.geometry import Pose, wrap_angle
+from robot.geometry import Point, Pose, wrap_angle
 from robot.messages import (
     Command,
     Control,
@@ -58,9 +58,8 @@ class Step:
         self.here = here
         self.effects: list[Effect] = []
 
-    def tell(self, code: FeedbackCode, *, id: str | None = None, at: Pose | None = None, detail: str = "") -> None:
-        place = None if at is None else at.point
-        self.effects.append(Tell(feedback(code, at=place, detail=detail, id=id)))
+    def tell(self, code: FeedbackCode, *, id: str | None = None, at: Point | None = None, detail: str = "") -> None:
+        self.effects.append(Tell(feedback(code, at=at, detail=detail, id=id)))
 
     def refuse(self, entry: int, id: str | None, reason: str) -> None:
         self.tell(FeedbackCode.INVALID, id=id, detail=reason)
@@ -69,9 +68,9 @@ class Step:
     def forget(self, entry: int) -> None:
         self.effects.append(Forget(entry))
 
-    def end(self, goal: Goal, code: FeedbackCode, *, detail: str = "") -> None:
-        """The goal's ending, told under its id."""
-        self.tell(code, id=goal.id, at=goal.end, detail=detail)
+    def end(self, goal: Goal, code: FeedbackCode, *, at: Point | None = None, detail: str = "") -> None:
+        """The goal's ending, told under its id; ``at`` is where, if not at its own place."""
+        self.tell(code, id=goal.id, at=at or goal.end.point, detail=detail)
         self.forget(goal.entry)
         self.state = replace(self.state, current=None)
 
@@ -106,7 +105,7 @@ class Step:
         began = self.here.pose if goal.moves else self.state.began
         self.state = replace(self.state, mode=Mode.MOVING, current=current, pending=tuple(rest), began=began)
         if goal.moves:
-            self.tell(_BEGIN[type(goal.command)], id=goal.id, at=goal.end)
+            self.tell(_BEGIN[type(goal.command)], id=goal.id, at=goal.end.point)
         if current.patrols:
             self.tell(FeedbackCode.PLAN_LOOP, id=goal.id, detail="1")
         self.pursue(current)

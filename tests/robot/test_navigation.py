@@ -12,6 +12,8 @@ from pilot import Pilot, offset
 from robot.geometry import Point, Pose, Segment, wrap_angle
 from robot.mapping import OccupancyGrid
 from robot.navigation import Drive, Navigator, Phase, Plan, Reach, Reason, State, build_costmap, plan
+from robot.navigation.follower import Twist
+from robot.navigation.recovery import Recovery
 
 CORRIDOR = polygon((-1, -1), (8, -1), (8, 1), (3.9, 1), (3.9, 3), (3, 3), (3, 1), (-1, 1))
 CLUTTERED = CORRIDOR + box(2, -0.6, 0.3, 0.3) + box(5, 0.7, 0.3, 0.3) + box(6.5, 0, 0.4, 0.4)
@@ -172,6 +174,28 @@ def test_a_robot_that_cannot_move_tries_to_recover_and_then_says_that_it_is_stuc
         drives.append(navigator.step(pose, scan, grid, len(drives) * 0.05))
     assert (drives[-1].state, drives[-1].reason) == (State.FAILED, Reason.STUCK)
     assert Phase.RECOVER in {drive.phase for drive in drives}
+
+
+def test_recovery_plans_anew_then_spins_then_backs_up_then_waits_and_does_so_twice() -> None:
+    recovery, pose, now_s = Recovery(), Pose(0, 0, 0), 0.0
+    deeds: list[set[Twist]] = []
+    while recovery.start(pose, now_s):
+        deeds.append(set())
+        begun_s = now_s
+        while recovery.is_active:
+            deeds[-1].add(recovery.step(pose, now_s))
+            now_s += 0.05
+        if len(deeds) % 4 == 0:
+            assert 2.9 < now_s - begun_s < 3.2
+    still, spin, back = Twist(0.0, 0.0), Twist(0.0, 0.8), Twist(-0.08, 0.0)
+    assert deeds == [{still}, {spin, still}, {back, still}, {still}] * 2
+
+
+def test_a_robot_that_has_come_on_since_its_last_trouble_may_recover_as_often_again() -> None:
+    recovery = Recovery()
+    begun = [recovery.start(Pose(0, 0, 0), 0.0) for _ in range(9)]
+    assert begun == [True] * 8 + [False]
+    assert recovery.start(Pose(1.2, 0, 0), 0.0)
 
 
 def test_a_pause_loses_nothing_and_time_spent_paused_is_no_time_stuck() -> None:

@@ -118,6 +118,12 @@ def test_go_to_keeps_the_heading_of_before(bench):
     assert bench.arrive() == ["SUCCESS_GO_TO", "READY"]
 
 
+def test_a_stand_in_for_a_place_without_room_is_told(bench):
+    bench.send("go to 3 -2")
+    assert bench.event(Arrived(Point(2.8, -2.0))) == ["SUCCESS_GO_TO", "READY"]
+    assert bench.effects[0].feedback.message == "successfully navigated to (2.8, -2), the nearest free place"
+
+
 def test_turns_estimate_then_verify(bench):
     assert bench.send("turn right") == ["ESTIMATE_ROTATION"]
     assert bench.target == Rotate(pytest.approx(-math.pi / 2), pytest.approx(-math.pi / 2))
