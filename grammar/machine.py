@@ -1,8 +1,9 @@
 """The LALR automaton, run over a lattice of tokens: Lark builds the tables, this module walks them.
 
 A word of several categories is offered to the automaton as each in turn, in order of preference; the state decides
-which of them may stand there (a contextual lexer), and where a choice fails later the next one is tried. The stack is
-a linked list, so that going back costs nothing.
+which of them may stand there (a contextual lexer), and where a choice fails later the next one is tried. Where the
+state could both shift and reduce, it shifts; a thorough walk tries to reduce as well, as a generalized LR parser does
+(Tomita 1985, Efficient Parsing for Natural Language). The stack is a linked list, so that going back costs nothing.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import count
 from typing import Any
 
 END = "$END"
@@ -46,7 +48,7 @@ class Reduction:
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """Shifts, reductions and gotos by state, with the terminals that each state accepts."""
+    """Shifts, reductions and gotos by state and symbol. A state may both shift a terminal and reduce before it."""
 
     start: int
     accept: int
@@ -69,30 +71,22 @@ def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str]
     missing = sorted(set(terminals_of(grammar)) - set(terminals))
     if missing:
         raise ValueError(f"grammar uses {', '.join(missing)}, of which the lexicon has no words")
-    parser = _compiled(grammar)
-    table = parser.parser.parser._parse_table
-    number = {state: index for index, state in enumerate(table.states)}
-    known: dict[int, Reduction] = {}
+    analysis = _analysed(grammar)
+    number = {state: index for index, state in enumerate(analysis.lr0_itemsets)}
+    known: dict[Any, Reduction] = {}
     shifts, reductions, gotos = [], [], []
-    for state in table.states:
-        shifted: dict[str, int] = {}
-        reduced: dict[str, Reduction] = {}
-        went: dict[str, int] = {}
-        for symbol, (kind, target) in table.states[state].items():
-            if str(kind) == "Reduce":
-                reduced[symbol] = known.setdefault(id(target), _reduction(target, actions))
-            else:
-                (shifted if symbol.isupper() or symbol == END else went)[symbol] = number[target]
-        shifts.append(shifted)
-        reductions.append(reduced)
-        gotos.append(went)
-    return Tables(
-        number[table.start_states["start"]],
-        number[table.end_states["start"]],
-        tuple(shifts),
-        tuple(reductions),
-        tuple(gotos),
-    )
+    for state in number:
+        following = {str(symbol.name): number[target] for symbol, target in state.transitions.items()}
+        shifts.append({name: target for name, target in following.items() if name.isupper()})
+        gotos.append({name: target for name, target in following.items() if not name.isupper()})
+        reductions.append(
+            {
+                str(symbol.name): known.setdefault(rule, _reduction(rule, actions))
+                for symbol, (rule,) in state.lookaheads.items()
+            }
+        )
+    start = number[analysis.lr0_start_states["start"]]
+    return Tables(start, gotos[start]["start"], tuple(shifts), tuple(reductions), tuple(gotos))
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,7 +116,17 @@ def _compiled(grammar: str) -> Any:
     from lark import Lark  # imported where it is used: it is the slowest import of the room
 
     text = f"{grammar}\n%declare {' '.join(terminals_of(grammar))}\n"
-    return Lark(text, parser="lalr", lexer="basic", start="start", maybe_placeholders=False)
+    return Lark(text, parser="earley", lexer="basic", start="start", maybe_placeholders=False)
+
+
+def _analysed(grammar: str) -> Any:
+    """Lark's LALR(1) analysis. Raises GrammarError where two rules could be reduced before the same terminal."""
+    from lark.common import ParserConf
+    from lark.parsers.lalr_analysis import LALR_Analyzer
+
+    analysis: Any = LALR_Analyzer(ParserConf(_compiled(grammar).rules, {}, ["start"]))
+    analysis.compute_lalr()
+    return analysis
 
 
 def _reduction(rule: Any, actions: Callable[[str], Action | None]) -> Reduction:
@@ -152,10 +156,14 @@ Node = tuple[int, Any, Any]  # state, value, the node below
 
 
 class Machine:
-    """Runs the tables over a lattice. ``edges(i)`` gives the ways to read on from position i, the preferred first."""
+    """Runs the tables over a lattice. ``edges(i)`` gives the ways to read on from position i, the preferred first.
 
-    def __init__(self, tables: Tables) -> None:
+    A thorough one also reduces where it could shift: it reads all that the rules allow.
+    """
+
+    def __init__(self, tables: Tables, thorough: bool = False) -> None:
         self._tables = tables
+        self._thorough = thorough
 
     def readings(
         self, start: int, edges: Callable[[int], Sequence[Edge]], may_end: Callable[[int], bool], trace: Trace
@@ -190,14 +198,28 @@ class Machine:
             trace.steps += 1
             if choice < len(options) or may_end(at):
                 pending.append((node, at, choice))
+            if self._thorough and edge.terminal is not None:
+                pending.extend((other, at + edge.length, 0) for other in self._other_shifts(node, edge, at, trace))
             node, at, choice, options = following, at + edge.length, 0, edges(at + edge.length)
             if edge.terminal is not None and at >= trace.furthest:
                 trace.states = (node[0],) if at > trace.furthest else (*trace.states, node[0])[:STATES_MAX]
                 trace.furthest = at
         return node, at
 
-    def _shift(self, node: Node, terminal: str, value: Any, at: int, trace: Trace) -> Node | None:
-        """Reduce as the lookahead demands, then shift; None where the state does not accept it or an action refuses."""
+    def _other_shifts(self, node: Node, edge: Edge, at: int, trace: Trace) -> Iterator[Node]:
+        """What comes of reducing where the terminal could have been shifted."""
+        assert edge.terminal is not None
+        for passed in count(1):
+            other = self._shift(node, edge.terminal, edge.value, at, trace, passed)
+            if other is None:
+                return
+            yield other
+
+    def _shift(self, node: Node, terminal: str, value: Any, at: int, trace: Trace, passed: int = 0) -> Node | None:
+        """Reduce as the lookahead demands, then shift, passing over the first ``passed`` states that could.
+
+        None where the state does not accept the terminal or an action refuses.
+        """
         tables = self._tables
         shifts, reductions, gotos = tables.shifts, tables.reductions, tables.gotos
         while True:
@@ -206,7 +228,9 @@ class Machine:
                 return (state, value, node)
             target = shifts[state].get(terminal)
             if target is not None:
-                return (target, value, node)
+                if not passed:
+                    return (target, value, node)
+                passed -= 1
             reduction = reductions[state].get(terminal)
             if reduction is None:
                 return None

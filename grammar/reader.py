@@ -9,7 +9,7 @@ from voxml.vocabulary import Lexicon
 
 from .acts import DialogueAct, Function, NotUnderstood
 from .amounts import AmountReader
-from .clauses import Composer
+from .clauses import Clauses, Composer
 from .disfluency import Fluency
 from .ellipsis import Completer
 from .expectations import describe_expected
@@ -33,6 +33,7 @@ class Reader:
         self._lexicon = lexicon
         self._tables = tables_of(lexicon, language, Meaning(lexicon).action)
         self._machine = Machine(self._tables)
+        self._thorough_machine = Machine(self._tables, thorough=True)
         self._words = WordReader(lexicon, amounts)
         self._tokenizer = Tokenizer(lexicon.closed)
         self._fluency = Fluency(lexicon, amounts)
@@ -45,26 +46,28 @@ class Reader:
         """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
         if len(text) > TEXT_MAX_CHARS:
             return NotUnderstood((TEXT_MAX_CHARS, len(text)), (f"at most {TEXT_MAX_CHARS} characters",))
-        tokens, corrects = self._fluency.clean(self._tokenizer(text))
-        search = self._search(tokens)
-        clauses = search.clauses()
-        if not clauses:
-            failure = self._not_understood(text, tokens, search.trace)
-            fewer = self._fluency.cleaned_again(tokens)
-            clauses, tokens = self._search(fewer).clauses() if fewer != tokens else None, fewer
-            if not clauses:
-                return failure
-        return tuple(
-            DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end))
-            for clause in self._composer.composed(clauses, corrects)
-        )
+        cleaned, corrects = self._fluency.clean(self._tokenizer(text))
+        failure = None
+        for tokens, machine in self._attempts(cleaned):
+            search = Search(self.lattice(tokens), machine, self._leading)
+            clauses = search.clauses()
+            if clauses:
+                return _acts(self._composer.composed(clauses, corrects), tokens)
+            failure = failure or self._not_understood(text, tokens, search.trace)
+        assert failure is not None
+        return failure
+
+    def _attempts(self, tokens: tuple[Token, ...]) -> Iterator[tuple[tuple[Token, ...], Machine]]:
+        """The words to read and what to read them by, each where nothing came of the one before."""
+        yield tokens, self._machine
+        yield tokens, self._thorough_machine
+        fewer = self._fluency.cleaned_again(tokens)
+        if fewer != tokens:
+            yield fewer, self._machine
 
     def tokens(self, text: str) -> tuple[Token, ...]:
         """The words that are read: without hesitations, repetitions and what was taken back."""
         return self._fluency.clean(self._tokenizer(text))[0]
-
-    def _search(self, tokens: tuple[Token, ...]) -> Search:
-        return Search(self.lattice(tokens), self._machine, self._leading)
 
     def lattice(self, tokens: tuple[Token, ...]) -> Lattice:
         """The ways to read them, by the lexicon."""
@@ -76,10 +79,10 @@ class Reader:
         return self._fluency.clean(tokens) == (tuple(tokens), False)
 
     def readings(self, text: str) -> Iterator[tuple[Function, Form]]:
-        """Every reading of the text as one act, the preferred first; the same one may come by several ways."""
+        """Every reading of the text as one act that the rules allow; the same one may come by several ways."""
         tokens = self.tokens(text)
         lattice = self.lattice(tokens)
-        for reading, end in self._machine.readings(0, lattice.edges, lattice.may_end, Trace()):
+        for reading, end in self._thorough_machine.readings(0, lattice.edges, lattice.may_end, Trace()):
             if end == len(tokens):
                 yield reading
 
@@ -94,6 +97,13 @@ class Reader:
             return NotUnderstood((len(text), len(text)), expected)
         token = tokens[trace.furthest]
         return NotUnderstood((token.start, token.end), expected)
+
+
+def _acts(clauses: Clauses, tokens: tuple[Token, ...]) -> tuple[DialogueAct, ...]:
+    return tuple(
+        DialogueAct(clause.function, clause.form, (tokens[clause.start].start, tokens[clause.end - 1].end))
+        for clause in clauses
+    )
 
 
 def tables_of(lexicon: Lexicon, language: str, actions: Callable[[str], Action | None]) -> Tables:

@@ -1,7 +1,8 @@
 """Sentences sampled from the grammar, each with the act and form it was sampled from.
 
-The rules are those the reader walks and the words those of the lexicon, so a sample says what can be said. Chance comes
-from outside, as a function that chooses one of several, which keeps the room pure and a seed reproducible.
+The rules are those the reader walks, the words those of the lexicon, and each stands where its neighbours let it mean
+what it was chosen for, so a sample says what can be said. Chance comes from outside, as a function that chooses one of
+several, which keeps the room pure and a seed reproducible.
 """
 
 from __future__ import annotations
@@ -14,9 +15,13 @@ from voxml.terms import Form, Quantity, Term, Unit, parse_form
 from voxml.vocabulary import Lexicon
 
 from .acts import Function
+from .amounts import AmountReader
 from .language import language_grammar
-from .machine import Refused, Rule, grammar_rules
+from .lattice import Lattice
+from .machine import Edge, Refused, Rule, grammar_rules
 from .meaning import Meaning
+from .tokens import Token
+from .word_edges import WordReader
 
 _T = TypeVar("_T")
 Chooser = Callable[[Sequence[_T]], _T]
@@ -39,10 +44,11 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """What a symbol was expanded to: words, and their value."""
+    """What a symbol was expanded to: words, their value, and what each of the words was chosen for, in order."""
 
     words: tuple[str, ...]
     value: Any
+    edges: tuple[Edge, ...]
 
 
 class Sampler:
@@ -53,6 +59,7 @@ class Sampler:
         self._rules = grammar_rules(language_grammar(language), Meaning(lexicon).action)
         self._words = _terminals(lexicon)
         self._heights = _heights(self._rules)
+        self._word_reader = WordReader(lexicon, AmountReader(lexicon.closed))
 
     def sample(self) -> Sample:
         """One sentence of one act.
@@ -71,9 +78,19 @@ class Sampler:
     def _sampled(self, symbol: str) -> tuple[str, Any]:
         for _ in range(ATTEMPTS_MAX):
             part = self._symbol(symbol, 0)
-            if part is not None and len(part.words) <= WORDS_MAX:
+            if part is not None and len(part.words) <= WORDS_MAX and self._may_be_said(part):
                 return " ".join(part.words), part.value
         raise RuntimeError("the grammar makes no sentence")
+
+    def _may_be_said(self, part: _Part) -> bool:
+        """Whether each word may be meant so among the others: "twenty" and "two" are not two numbers in a row."""
+        lattice = Lattice([Token(word, 0, 0) for word in part.words], self._word_reader)
+        at = 0
+        for edge in part.edges:
+            if edge not in lattice.edges(at):
+                return False
+            at += edge.length
+        return True
 
     def _symbol(self, symbol: str, depth: int) -> _Part | None:
         if symbol not in self._rules:
@@ -100,7 +117,8 @@ class Sampler:
             value = rule.action(*(part.value for part in parts))
         except Refused:
             return None
-        return _Part(tuple(word for part in parts for word in part.words), value)
+        words = tuple(word for part in parts for word in part.words)
+        return _Part(words, value, tuple(edge for part in parts for edge in part.edges))
 
     def _height(self, symbol: str) -> int:
         return self._heights.get(symbol, 0)
@@ -126,32 +144,36 @@ def _terminals(lexicon: Lexicon) -> dict[str, list[_Part]]:
     found: dict[str, list[_Part]] = {}
     for phrase in lexicon.words():
         for sense in lexicon.lookup(phrase):
-            found.setdefault(sense.category, []).append(_Part(sense.words, sense.value))
+            found.setdefault(sense.category, []).append(_word(sense.category, sense.words, sense.value))
     numbers = _numbers(lexicon)
     amounts = _amounts(lexicon, numbers)
-    found["CARDINAL"] = numbers
-    # In digits: of two in a row, the words may be one number ("two twenty").
-    found["NUMBER"] = [_Part((str(part.value),), part.value) for part in numbers]
-    found["QTY"] = amounts
-    found["QTY_MORE"] = [_Part(("another", *part.words), Term("more", (part.value,))) for part in amounts]
-    found["PREDICATIVE"] = found.get("ADJECTIVE", [])
+    found["CARDINAL"] = [_word("CARDINAL", words, value) for words, value in numbers]
+    found["NUMBER"] = [_word("NUMBER", (str(value),), value) for _, value in numbers]
+    found["QTY"] = [_word("QTY", words, value) for words, value in amounts]
+    found["QTY_MORE"] = [_word("QTY_MORE", ("another", *words), Term("more", (value,))) for words, value in amounts]
+    found["PREDICATIVE"] = [_word("PREDICATIVE", part.words, part.value) for part in found.get("ADJECTIVE", [])]
     return found
 
 
-def _numbers(lexicon: Lexicon) -> list[_Part]:
+def _word(terminal: str, words: tuple[str, ...], value: Any) -> _Part:
+    return _Part(words, value, (Edge(terminal, value, len(words)),))
+
+
+def _numbers(lexicon: Lexicon) -> list[tuple[tuple[str, ...], Quantity]]:
     units = {word: float(value) for word, value in lexicon.closed.table("number").items()}
-    round_numbers = [text for text in _ROUND_NUMBERS if all(word in units for word in text.split())]
-    return [_Part(tuple(text.split()), Quantity(sum(units[w] for w in text.split()))) for text in round_numbers]
+    round_numbers = [text.split() for text in _ROUND_NUMBERS if all(word in units for word in text.split())]
+    return [(tuple(words), Quantity(sum(units[word] for word in words))) for words in round_numbers]
 
 
-def _amounts(lexicon: Lexicon, numbers: list[_Part]) -> list[_Part]:
+def _amounts(
+    lexicon: Lexicon, numbers: list[tuple[tuple[str, ...], Quantity]]
+) -> list[tuple[tuple[str, ...], Quantity]]:
     """A number with each unit that is one word of more than two letters."""
     found = []
     for word in lexicon.closed.words_of("unit"):
         unit = parse_form(word.text)
         if len(word.words) > 1 or len(word.words[0]) < 3 or not isinstance(unit, Quantity) or unit.unit is Unit.COUNT:
             continue
-        for number in numbers:
-            value = round(number.value.value * unit.value, 9)
-            found.append(_Part((*number.words, *word.words), Quantity(value, unit.unit)))
+        for words, number in numbers:
+            found.append(((*words, *word.words), Quantity(round(number.value * unit.value, 9), unit.unit)))
     return found
