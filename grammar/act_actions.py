@@ -5,8 +5,7 @@ from __future__ import annotations
 from voxml.terms import Form, Quantity, Term
 
 from .acts import Function
-from .arguments import Args
-from .machine import Action
+from .machine import Action, Refused
 from .phrases import ONE, pred_of
 
 Act = tuple[Function, Form]
@@ -23,16 +22,15 @@ def _says(kind: Function, pred: str) -> Action:
     return lambda form: (kind, Term(pred))
 
 
-def _not(mark: Form, wrong: Args) -> Act:
-    """ "not that one"; "not left, right" says what is right too."""
-    if len(wrong) == 2 and wrong[0].kind is wrong[1].kind:
-        return Function.CORRECT, wrong[1].form
-    return Function.CORRECT, Term("not", (wrong[0].form,))
-
-
 def _quality(quality: Form) -> Act:
     """ "(which one?) red"."""
     return Function.FRAGMENT, Term("the", (Term(pred_of(quality), (ONE,)),))
+
+
+def _quality_of(determiner: Form, quality: Form) -> Act:
+    if pred_of(determiner) == "no":
+        raise Refused("a noun")
+    return _quality(quality)
 
 
 def _again_often(that: Form, times: Form | Quantity, *mark: Form) -> Act:
@@ -52,6 +50,10 @@ def _conditional(marker: Form, condition: Form, core: Form, *otherwise: Form) ->
 
 
 def _until(condition: Form, core: Form) -> Form:
+    """ "go forward until you see a door"; to turn until one faces something is to face it."""
+    match condition, core:
+        case Term("is", (Term("you"), Term("facing", (place,)))), Term("turn", ()):
+            return Term("face", (place,))
     return Term("until", (condition, core))
 
 
@@ -79,13 +81,10 @@ ACT_ACTIONS: dict[str, Action] = {
     "act_again_often": _again_often,
     "act_suggest": lambda about, what: (Function.FRAGMENT, what),
     "act_quality": _quality,
-    "act_quality_of": lambda determiner, quality: _quality(quality),
+    "act_quality_of": _quality_of,
     "act_number": lambda mark, number: (Function.FRAGMENT, number),
     "act_until": lambda marker, condition: (Function.FRAGMENT, Term("until", (condition,))),
-    "act_not": _not,
     "act_not_but": lambda mark, wrong, right: (Function.CORRECT, right),
-    "act_rather": lambda mark, wrong, separator, right: (Function.CORRECT, right[0].form),
-    "act_rather_first": lambda right, separator, mark, wrong: (Function.CORRECT, right[0].form),
 }
 
 COMMAND_ACTIONS: dict[str, Action] = {

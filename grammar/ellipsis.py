@@ -6,6 +6,7 @@ from voxml.schema import RelationEntry
 from voxml.terms import Form, Term
 from voxml.vocabulary import Lexicon
 
+_BACK, _BACK_THERE = Term("back"), Term("back_there")
 _CLASSES = ("SIDE", "AXIS", "HEADING", "PLACE")
 
 
@@ -37,9 +38,10 @@ class Completer:
         for arg in program.args:
             if kind is not None and self._kind(arg) == kind:
                 return Term(program.pred, (part,))
-            match arg:
-                case Term(relation, (place,)) if kind == "PLACE" and relation in self._paths and place in self._kinds:
-                    return Term(program.pred, (Term(relation, (part,)),))  # "go there and then there"
+            if self._kind(arg) == "path" and kind == "PLACE":  # "go there and then there"
+                return Term(program.pred, (Term("to", (part,)),))
+            if self._kind(arg) == "path" and part == _BACK:  # "go to the door and back"
+                return Term(program.pred, (Term("to", (_BACK_THERE,)),))
         return None
 
     def _kind(self, form: Form) -> str | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from voxml.terms import Form, Term
 from voxml.vocabulary import Lexicon
 
+from . import phrases
 from .act_actions import ACT_ACTIONS, COMMAND_ACTIONS, Act
 from .acts import Function
 from .arguments import Args, Kind
@@ -56,6 +57,30 @@ class Meaning(VerbActions):
         if any(arg.kind in (Kind.PHRASE, Kind.EVENT) for arg in args):
             raise Refused("how")
         return Function.FRAGMENT, Term("again", tuple(arg.form for arg in args))
+
+    def act_not(self, mark: Form, wrong: Args) -> Act:
+        """ "not that one"; "not left, right" says what is right too."""
+        if len(wrong) == 2 and wrong[0].kind is wrong[1].kind:
+            return Function.CORRECT, wrong[1].form
+        return Function.CORRECT, Term("not", (self._part(wrong),))
+
+    def act_rather(self, mark: Form, wrong: Args, separator: Form, right: Args) -> Act:
+        """ "not left, right ninety degrees"."""
+        return Function.CORRECT, self._part(right)
+
+    def act_rather_first(self, right: Args, separator: Form, mark: Form, wrong: Args) -> Act:
+        return Function.CORRECT, self._part(right)
+
+    def _part(self, args: Args) -> Form:
+        """One argument, or the program that several say all of."""
+        form = args[0].form if len(args) == 1 and args[0].kind is not Kind.EVENT else self.verbless(args)
+        if form is None:
+            raise Refused("a verb")
+        return form
+
+    def q_is_any(self, be: Form, what: Form, posts: tuple[Form, ...]) -> Form:
+        """ "is anyone in the kitchen"."""
+        return Term("exists", (what, *phrases.places(posts)))
 
     def q_exists(self, there: Form, what: Form) -> Form:
         """ "is there anything on your left" asks as "is there anything" does, of a place."""

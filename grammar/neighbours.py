@@ -12,6 +12,7 @@ from .tokens import MARKS
 _DIRECTIONS = frozenset({"AXIS", "SIDE", "HEADING"})
 _QUALITIES = frozenset({"ADJECTIVE", "ORDINAL", "SIDE_ADJ"})
 _NAMES_OF_THINGS = frozenset({"NOUN", "NOUNS"})
+_COMPARED = frozenset({"ADJECTIVE", "ORDINAL"})
 _COUNTS = frozenset({"NUMBER", "CARDINAL", "QTY"})
 _PASSED_OVER = Edge(None, None, 1)
 
@@ -38,13 +39,17 @@ class Neighbours:
         self._to_do = _in(categories, {"VERB", "LIGHT"})
         self._clauses = self._verbs | _in(categories, {"LIGHT"}) | self._addresses
         self._ways = _in(categories, {"AXIS", "SIDE", "HEADING", "PLACE", "PATH"}) - self._nouns
+        self._described = _in(categories, {"ADJECTIVE", "ORDINAL"})
+        self._ends_and_ways = _in(categories, {"AXIS"}) & self._nouns
         self._ones = _in(categories, {"ONE"})
         self._nouns |= self._ones
         self._sides = _in(categories, {"SIDE_ADJ"})
         self._places = frozenset(sense.words[0] for sense in lexicon.all_senses() if sense.category == "LOC")
         self._places -= self._determiners | self._ways
         adjectives = {sense.words[0] for sense in lexicon.all_senses() if sense.category == "ADJECTIVE"}
-        openers = self._addresses | self._refusals | self._openers | self._intensifiers | self._ones
+        openers = (
+            self._addresses | self._refusals | self._openers | self._intensifiers | self._ones | self._ends_and_ways
+        )
         self._delicate = self._enumerators | self._benefactives | self._determiners | openers | adjectives
 
     def agreeing(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
@@ -67,7 +72,7 @@ class Neighbours:
             found = tuple(edge for edge in found if edge.length > 1 or edge.terminal not in _COUNTS)  # "the left one"
         if word in self._determiners and before in self._nouns:  # "exit the building" is no building
             found = tuple(edge for edge in found if edge.terminal is not None)
-        return self._qualities(self._before_of(found, texts, at), texts, at)
+        return self._qualities(self._before_of(self._ways_first(found, texts, at), texts, at), texts, at)
 
     def _forbids(self, edge: Edge, texts: Sequence[str], at: int) -> bool:
         """Whether a "no, do not" goes on with what not to do: that is no answer."""
@@ -86,7 +91,15 @@ class Neighbours:
             return (_PASSED_OVER, *found) if after else (_PASSED_OVER,)
         if word in self._openers and after in MARKS and at + 2 < len(texts) and texts[at + 2] in self._clauses:
             return (_PASSED_OVER, *found)
-        return self._qualities(self._before_of(found, texts, at), texts, at) if _ends(texts, at + 1) else found
+        return self._qualities(self._before_of(self._ways_first(found, texts, at), texts, at), texts, at)
+
+    def _ways_first(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
+        """ "and back" is a way; the back of something has its article, or its "of"."""
+        if texts[at] not in self._ends_and_ways or _follows(texts, at + 1, self._of):
+            return found
+        if at and texts[at - 1] in self._determiners | self._sides | self._described:
+            return found
+        return tuple(edge for edge in found if edge.length > 1 or edge.terminal != "NOUN")
 
     def _before_of(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
         """ "The middle of", "to the back of": before "of" stands a thing, not a quality nor a direction."""
@@ -104,7 +117,7 @@ class Neighbours:
         if not qualities:
             return found
         if _follows(texts, at + 1, self._determiners):  # "near the door" is where, not what it is like
-            found = tuple(edge for edge in found if edge.terminal != "ADJECTIVE" or edge.length > 1)
+            found = tuple(edge for edge in found if edge.terminal not in _COMPARED or edge.length > 1)
         asserted = at > 0 and texts[at - 1] in self._copulas
         predicative = (edge for edge in qualities if asserted or _ends(texts, at + edge.length))
         return (*found, *(Edge("PREDICATIVE", edge.value, edge.length) for edge in predicative))

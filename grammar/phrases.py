@@ -72,7 +72,15 @@ def nominal(noun: Form, pres: tuple[Pre, ...] = (), posts: tuple[Post, ...] = ()
 
 
 def headless(pres: tuple[Pre, ...], posts: tuple[Post, ...] = ()) -> Nominal:
-    """ "the first", "the nearest on the left": a noun is understood; "the red" is not English for a thing."""
+    """ "the first", "the nearest on the left", "two of the blocks": a noun is understood.
+
+    "the red" is not English for a thing.
+    """
+    if isinstance(pres[-1].form, Quantity) and posts and _is_of(posts[0]):
+        return nominal(Term("plural", (ONE,)), pres, posts)
+    match posts:
+        case (Term("number", (Quantity() as count,)), *rest):  # "the other two"
+            return headless((*pres, Pre(count, True)), tuple(rest))
     if not any(pre.is_ordering and isinstance(pre.form, Term) for pre in pres):
         raise Refused("a noun")
     if pres[-1].is_ordering and not all(pre.is_ordering for pre in pres):  # "left first" is no noun phrase
@@ -114,8 +122,14 @@ def flat_chain(modifiers: tuple[Form, ...]) -> tuple[Form, ...]:
 
 
 def bare_phrase(what: Nominal) -> Form:
-    """Without a determiner: "go to table" means the one there is, "find doors" some."""
+    """Without a determiner: "go to table" means the one there is, "find doors" some, "one of the doors" any."""
+    if what.noun == ONE and what.modifiers and _is_of(what.modifiers[0]):
+        return phrase(Term("a"), what)
     return phrase(Term("some" if what.plural else "the"), what)
+
+
+def _is_of(post: Post) -> bool:
+    return isinstance(post, Term) and post.pred == "of"
 
 
 def compound(modifier: Form, head: Form) -> Form:

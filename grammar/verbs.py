@@ -34,6 +34,8 @@ class VerbActions:
         rest = tuple(arg for arg in args if arg.kind is not Kind.EVENT)
         if any(each.readings != events[0].readings for each in events):
             raise Refused("one thing to do")
+        if events and isinstance(readings, tuple) and not _may_be_object(args):
+            raise Refused("the end")
         if events:
             return self._done(readings, events[0], rest)
         if not isinstance(readings, Term):
@@ -144,6 +146,12 @@ class VerbActions:
 
     def _readings(self, *preds: str) -> tuple[Reading, ...]:
         return tuple(Reading(self._lexicon.programs[pred]) for pred in preds)
+
+
+def _may_be_object(args: Args) -> bool:
+    """Whether an event noun stands where its verb's object does: "turn a ten degree angle", not "turn left, pivot"."""
+    at = next(at for at, arg in enumerate(args) if arg.kind is Kind.EVENT)
+    return at == 0 or args[at - 1].kind in (Kind.QUANTITY, Kind.NUMBER)
 
 
 def _is_small(arg: Arg) -> bool:

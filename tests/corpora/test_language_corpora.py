@@ -55,8 +55,8 @@ def test_expectations_are_well_formed(path: Path) -> None:
 
 
 def test_negatives_move_nothing() -> None:
-    negatives = next(path for path in LANGUAGE if path.stem == "negatives")
-    for case in _cases(negatives):
+    negatives = [path for path in LANGUAGE if path.stem in ("negatives", "hard_negatives")]
+    for case in (case for path in negatives for case in _cases(path)):
         assert case.act != Function.INSTRUCT.value, case.text
         assert not case.commands, case.text
 
