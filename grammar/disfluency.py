@@ -38,7 +38,7 @@ class Fluency:
         vocabulary = self._words.vocabulary
         numbers = {word for word in vocabulary if self._words.is_number(word)}
         begun = {word for word in numbers for other in numbers if other != word and other.startswith(word)}
-        doubtful = terms.words | self._hesitations.words | begun
+        doubtful = terms.last_words | self._hesitations.last_words | begun
         return frozenset(word for word in vocabulary - doubtful if len(word) > 1 or word == "a")
 
     def clean(self, tokens: Sequence[Token]) -> tuple[tuple[Token, ...], bool]:

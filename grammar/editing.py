@@ -10,6 +10,8 @@ from .fixed_phrases import FixedPhrases
 from .known_words import KnownWords
 from .tokens import MARKS
 
+_PHRASE_KINDS = frozenset({"number", "direction", "thing"})
+
 
 class EditingTerms:
     """The editing terms of one language. Lengths are in words, 0 for none."""
@@ -18,15 +20,19 @@ class EditingTerms:
         self._words = words
         self._strong = FixedPhrases.of(closed, "edit")
         self._weak = FixedPhrases.of(closed, "edit_weak")
-        self._trailing = FixedPhrases.of(closed, "edit_trailing")
         self._aside = FixedPhrases.of(closed, "edit_aside")
+        self._of_phrases = FixedPhrases.of(closed, "edit_phrase")
         self._of_amounts = FixedPhrases.of(closed, "edit_amount")
-        tables = (self._strong, self._weak, self._trailing, self._of_amounts)
-        self.words = frozenset().union(*(table.first_words for table in tables))
+        self._trailing = FixedPhrases.of(closed, "edit_trailing")
+        correcting = (each.words for each in closed.words_of("edit_trailing") if each.text == "corrects")
+        self._correcting = FixedPhrases(correcting)
+        self._relative = frozenset(closed.table("relative"))
+        tables = (self._strong, self._weak, self._of_phrases, self._of_amounts, self._trailing)
+        self.last_words = frozenset().union(*(table.last_words for table in tables))
 
     def strong(self, texts: Sequence[str], at: int) -> int:
         """A term that can be nothing else, as "let's do" is before an amount."""
-        return self._strong.length(texts, at) or self._before_amount(texts, at)
+        return self._strong.length(texts, at) or self._before_phrase(texts, at)
 
     def weak(self, texts: Sequence[str], at: int) -> int:
         """A term that may be something else: "no", "wait"."""
@@ -36,13 +42,19 @@ class EditingTerms:
         return self.strong(texts, at) or self.weak(texts, at)
 
     def aside(self, texts: Sequence[str], at: int) -> int:
-        """A term that takes nothing back where nothing of the kind of what follows stands before: "turn, sorry, left"."""
-        return self._aside.length(texts, at) or self._before_amount(texts, at)
+        """A term that takes nothing back where there is nothing before it to repair: "turn, sorry, left"."""
+        return self._aside.length(texts, at) or self._before_phrase(texts, at)
 
     def trailing(self, texts: Sequence[str], at: int) -> bool:
-        """Whether the utterance ends with a term that takes nothing back: "left, I said"."""
+        """Whether the utterance ends with a term that takes nothing of it back: "left, I said"."""
         length = self._trailing.length(texts, at)
-        return length > 0 and at + length == len(texts)
+        if not length or at + length < len(texts) or texts[at - 1] in self._relative:
+            return False
+        return not any(begin + self.strong(texts, begin) == len(texts) for begin in range(at))  # "I am sorry"
+
+    def corrects(self, texts: Sequence[str], at: int) -> bool:
+        """Whether that term takes back what was said earlier, as "sorry" does not."""
+        return self._correcting.length(texts, at) > 0
 
     def end(self, texts: Sequence[str], at: int) -> int:
         """Behind all the terms, and the marks between them, from ``at`` on: "no, wait, I mean"; ``at`` for none."""
@@ -54,8 +66,14 @@ class EditingTerms:
             end += more
         return end
 
-    def _before_amount(self, texts: Sequence[str], at: int) -> int:
-        length = self._of_amounts.length(texts, at) if at else 0
-        if not length or at + length >= len(texts) or self._words.joins(texts, at - 1) or texts[at - 1] in MARKS:
+    def _before_phrase(self, texts: Sequence[str], at: int) -> int:
+        """A term that is one only before an amount, or before some phrase that may replace another."""
+        if at and self._words.joins(texts, at - 1):
             return 0
-        return length if self._words.amounts.numbers.number(texts, at + length) is not None else 0
+        length = self._of_amounts.length(texts, at) if at else 0
+        if 0 < length < len(texts) - at and self._words.kind(texts, at + length) == "number":
+            return length
+        end = at + self._of_phrases.length(texts, at)
+        if end >= len(texts) or self._words.begins_clause(texts, end):
+            return 0  # "how do I make it go"
+        return end - at if self._words.kind(texts, end) in _PHRASE_KINDS else 0

@@ -14,16 +14,13 @@ class FixedPhrases:
         table: dict[str, list[tuple[str, ...]]] = {}
         for words in phrases:
             table.setdefault(words[0], []).append(words)
+        self.last_words = frozenset(words[-1] for found in table.values() for words in found)
         self._table = {first: tuple(sorted(found, key=lambda words: -len(words))) for first, found in table.items()}
 
     @classmethod
     def of(cls, closed: ClosedClasses, *names: str) -> FixedPhrases:
         """The phrases of closed classes."""
         return cls(word.words for name in names for word in closed.words_of(name))
-
-    @property
-    def first_words(self) -> frozenset[str]:
-        return frozenset(self._table)
 
     def length(self, texts: Sequence[str], at: int) -> int:
         """How many words the longest phrase has that begins at ``at``; 0 for none."""

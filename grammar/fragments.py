@@ -13,6 +13,7 @@ from .tokens import Token
 _FRAGMENT_MAX = 3
 _CLIPPED_MIN = 4
 _SHARED_MIN = 3
+_FOLLOWING_MAX = 24
 
 
 class Fragments:
@@ -26,11 +27,13 @@ class Fragments:
     def without(self, tokens: Sequence[Token]) -> list[Token]:
         """The tokens without fragments, and with units in full."""
         spoken = [token.text for token in tokens]
+        lowered = any(token.written.islower() for token in tokens)
         kept: list[Token] = []
         texts: list[str] = []
         for at, token in enumerate(tokens):
-            following = [word for word in spoken[at + 1 :] if word not in self._words.fillers]
-            if token.text not in self._editing and self._is_broken_off(token.text, texts, following):
+            following = [word for word in spoken[at + 1 : at + 1 + _FOLLOWING_MAX] if word not in self._editing]
+            letter = lowered and at > 0 and token.written.isupper()  # "the L shape"
+            if not letter and token.text not in self._editing and self._is_broken_off(token.text, texts, following):
                 continue
             whole = self._whole(token.text, following)
             if whole is not None:

@@ -13,6 +13,7 @@ from .known_words import KnownWords
 from .tokens import MARKS, Token
 
 _DRAWN_OUT = re.compile(r"([^\W\d_])\1{2,}")
+_COMMAS = frozenset({",", "-"})
 _DOUBLED = re.compile(r"([^\W\d_])\1+")
 
 
@@ -24,7 +25,8 @@ class Hesitations:
         self._filled = frozenset(_DOUBLED.sub(r"\1", filler) for filler in words.fillers)
         self.editing = words.fillers & closed.table("edit_weak").keys()
         self._discourse = FixedPhrases.of(closed, "discourse")
-        self.words = words.fillers | self._discourse.first_words
+        self._interrupting = self._discourse.last_words | _COMMAS
+        self.last_words = words.fillers | self._discourse.last_words
 
     def without(self, tokens: Sequence[Token]) -> tuple[list[Token], frozenset[int]]:
         """The tokens without filled pauses, and where (in characters) what follows one begins."""
@@ -36,7 +38,7 @@ class Hesitations:
                 if at + 1 < len(tokens):
                     halted.add(tokens[at + 1].start)
                 continue
-            kept.append(replace(token, text=self._as_known(token.text)))
+            kept.append(self._as_known(token))
         return self._amounts_closed(kept), frozenset(halted)
 
     def is_filled_pause(self, word: str) -> bool:
@@ -47,7 +49,7 @@ class Hesitations:
 
     def _is_filled_pause(self, texts: Sequence[str], at: int) -> bool:
         word = texts[at]
-        if not self.is_filled_pause(word):
+        if not self.is_filled_pause(word) or self._words.begins_phrase(texts, at, length=2):
             return False
         if at and self._words.is_unit(word) and texts[at - 1][-1].isdigit():
             return False
@@ -60,25 +62,31 @@ class Hesitations:
             return False
         return not self._words.is_phrase((texts[at - 1], after), "VERB")
 
-    def _as_known(self, word: str) -> str:
+    def _as_known(self, token: Token) -> Token:
         """A word that was drawn out, as it is known: "sssstop", "leeeft"."""
+        word = token.text
         if self._words.is_word(word) or not _DRAWN_OUT.search(word):
-            return word
+            return token
         shortened = (_DRAWN_OUT.sub(r"\1\1", word), _DRAWN_OUT.sub(r"\1", word))
-        return next((each for each in shortened if len(each) > 1 and self._words.is_word(each)), word)
+        known = next((each for each in shortened if len(each) > 1 and self._words.is_word(each)), word)
+        return replace(token, text=known)
 
     # ------------------------------------------------------------ phrases that keep the turn
     def _amounts_closed(self, tokens: list[Token]) -> list[Token]:
         """Amounts without what interrupts them: "ten like feet", "a hundred okay and eighty degrees"."""
-        at = 1
+        texts = [token.text for token in tokens]
+        at = 1 if not self._interrupting.isdisjoint(texts) else len(texts)
         while at < len(tokens) - 1:
-            texts = [token.text for token in tokens]
-            length = self._discourse.length(texts, at)
+            length = self._discourse.length(texts, at) or self._comma_before_unit(texts, at)
             if length and self._interrupts_amount(texts, at, at + length):
-                del tokens[at : at + length]
+                del tokens[at : at + length], texts[at : at + length]
             else:
                 at += 1
         return tokens
+
+    def _comma_before_unit(self, texts: Sequence[str], at: int) -> int:
+        """One at the comma of "two, meters"."""
+        return int(texts[at] in _COMMAS and self._words.is_unit(texts[at + 1]))
 
     def _interrupts_amount(self, texts: Sequence[str], start: int, end: int) -> bool:
         """Whether the number before ``start`` goes on at ``end``, or its unit stands there."""

@@ -33,6 +33,8 @@ class KnownWords:
         self.leads = FixedPhrases.of(closed, "LEAD")
         self._lexicon = lexicon
         self._joining = frozenset(closed.table("AND")) | frozenset(closed.table("THEN"))
+        self._not = frozenset(closed.table("NOT"))
+        self._idle = frozenset(closed.table("skip")) | frozenset(closed.table("reply")) | MARKS
         self._open = frozenset(closed.table("article")) | frozenset(closed.table("open"))
 
     def is_word(self, word: str) -> bool:
@@ -47,6 +49,18 @@ class KnownWords:
     def is_open(self, word: str) -> bool:
         """Whether a phrase cannot end with the word: "to", "the", "your"."""
         return word in self._open
+
+    def denies(self, word: str) -> bool:
+        """Whether the word is "not"."""
+        return word in self._not
+
+    def is_to_do(self, texts: Sequence[str]) -> bool:
+        """Whether the words say what to do, or how much, or which way, or nothing at all: "okay", but not "it's a"."""
+        if all(text in self._idle for text in texts):
+            return True
+        return any(
+            self.is_verb(texts, at) or self.kind(texts, at) in ("direction", "number") for at in range(len(texts))
+        )
 
     def joins(self, texts: Sequence[str], at: int) -> bool:
         """Whether the word joins clauses, as the "and" of "a hundred and eighty" does not."""
@@ -93,10 +107,13 @@ class KnownWords:
     def is_phrase(self, words: tuple[str, ...], category: str) -> bool:
         return any(sense.words == words and sense.category == category for sense in self._lexicon.senses(words[0]))
 
-    def begins_phrase(self, texts: Sequence[str], at: int) -> bool:
-        """Whether some phrase of the lexicon, of one word or more, begins at ``at``."""
+    def begins_phrase(self, texts: Sequence[str], at: int, length: int = 1) -> bool:
+        """Whether some phrase of the lexicon, of so many words or more, begins at ``at``."""
         following = tuple(texts[at : at + _PHRASE_MAX])
-        return any(following[: len(sense.words)] == sense.words for sense in self._lexicon.senses(texts[at]))
+        return any(
+            len(sense.words) >= length and following[: len(sense.words)] == sense.words
+            for sense in self._lexicon.senses(texts[at])
+        )
 
     def is_thing(self, texts: Sequence[str], at: int) -> bool:
         """Whether the phrase may be a thing or a quality: "(to the) back"."""

@@ -24,23 +24,26 @@ class Repairs:
 
     def applied(self, tokens: list[Token]) -> tuple[list[Token], bool]:
         """The tokens as they were meant, and whether they begin by taking something back ("no, I mean ...")."""
-        tokens, corrects = self._without_leading(self._without_trailing(tokens))
+        tokens, trails = self._without_trailing(tokens)
+        tokens, leads = self._without_leading(tokens)
+        texts = [token.text for token in tokens]
         at = 1
         while at < len(tokens):
-            mended = self._mended(tokens, at)
+            mended = self._mended(tokens, texts, at)
             if mended is None:
                 at += 1
             else:
                 tokens, at = mended, 1
-        return tokens, corrects
+                texts = [token.text for token in tokens]
+        return tokens, leads or trails
 
-    def _without_trailing(self, tokens: list[Token]) -> list[Token]:
-        """ "left, I said" and "the red one, I mean" take nothing back."""
+    def _without_trailing(self, tokens: list[Token]) -> tuple[list[Token], bool]:
+        """ "left, I said" and "the red one, I mean" take back what was said before them."""
         texts = [token.text for token in tokens]
         for at in range(max(1, len(tokens) - _TRAILING_MAX), len(tokens)):
             if self._terms.trailing(texts, at):
-                return tokens[:at]
-        return tokens
+                return tokens[:at], self._terms.corrects(texts, at)
+        return tokens, False
 
     def _without_leading(self, tokens: list[Token]) -> tuple[list[Token], bool]:
         texts = [token.text for token in tokens]
@@ -66,9 +69,8 @@ class Repairs:
         return end - at if end > at and self._terms.strong(texts, end) else 0
 
     # ------------------------------------------------------------ one repair
-    def _mended(self, tokens: list[Token], at: int) -> list[Token] | None:
+    def _mended(self, tokens: list[Token], texts: list[str], at: int) -> list[Token] | None:
         """The tokens with the repair behind the term at ``at`` in its place; None where there is none."""
-        texts = [token.text for token in tokens]
         end = self._terms.end(texts, at)
         if end == at or end >= len(texts):
             return None
@@ -76,7 +78,8 @@ class Repairs:
         while fluent and texts[fluent - 1] in MARKS:
             fluent -= 1
         if self._words.begins_clause(texts, end) and not self._is_direction(texts, end):
-            return [*tokens[: self._clause_start(texts[:fluent], texts[end:])], *tokens[end:]]
+            begun = self._clause_start(texts[:fluent], texts[end:])
+            return [*tokens[:begun], *tokens[end:]] if self._words.is_to_do(texts[begun:fluent]) else None
         start = self._counterpart(texts[:fluent], self._words.kind(texts, end))
         if start is None:
             return [*tokens[:at], *tokens[end:]] if at + self._terms.aside(texts, at) == end else None

@@ -12,6 +12,9 @@ from .editing import EditingTerms
 from .known_words import KnownWords
 from .tokens import MARKS, Token
 
+REPARANDUM_MAX = 24
+_LEAD_MAX = 8
+
 
 class Restarts:
     """Takes out what is said again, with the words of one language."""
@@ -23,7 +26,7 @@ class Restarts:
     def without(self, tokens: list[Token], halted: frozenset[int]) -> list[Token]:
         """The tokens without the first of two sayings; ``halted`` are the places that follow a filled pause."""
         texts = [token.text for token in tokens]
-        at = 1
+        at = 1 if len(set(texts)) < len(texts) else len(texts)
         while at < len(tokens):
             start, resume = self._said_again(texts, at, tokens[at].start in halted)
             if start < resume:
@@ -49,8 +52,8 @@ class Restarts:
 
     def _restart(self, texts: Sequence[str], at: int, resume: int, edited: bool, halted: bool = False) -> int | None:
         """From where on the words before ``at`` are those from ``resume`` on, the last perhaps not said in full."""
-        for start in range(max(0, at - (len(texts) - resume)), at):
-            if texts[start] != texts[resume] or not _begins_alike(texts, start, at, resume):
+        for start in range(max(0, at - REPARANDUM_MAX, at - (len(texts) - resume)), at):
+            if texts[start] != texts[resume] or not _is_begun(texts, start, at, resume):
                 continue
             if at - start == 1 and self._words.is_number(texts[start]):
                 if edited or halted or self._is_number_repeated(texts, start, resume):
@@ -97,7 +100,7 @@ class Restarts:
     def _request_again(self, texts: Sequence[str], at: int) -> int | None:
         """ "can you move can you turn": a request that begins anew, with at most one word said of the first."""
         leads = self._words.leads
-        if leads.length(texts, at) == 0 or self._words.joins(texts, at - 1):
+        if leads.length(texts, at) == 0 or self._words.joins(texts, at - 1) or self._words.denies(texts[at - 1]):
             return None
         for start in range(max(0, at - _LEAD_MAX), at - 1):
             length = leads.length(texts, start)
@@ -110,7 +113,9 @@ class Restarts:
         clause still lacks a noun or a unit."""
         if not self._words.begins_clause(texts, at):
             return None
-        start = next((index for index in range(at - 2, -1, -1) if texts[index] == texts[at]), None)
+        start = next(
+            (index for index in range(at - 2, max(-1, at - REPARANDUM_MAX), -1) if texts[index] == texts[at]), None
+        )
         if start is None or (start and not self._words.joins(texts, start - 1)):
             return None
         breaks_off = self._words.is_open(texts[at - 1]) and not self._words.is_thing(texts, at)
@@ -128,10 +133,7 @@ class Restarts:
         return False
 
 
-_LEAD_MAX = 8
-
-
-def _begins_alike(texts: Sequence[str], start: int, at: int, resume: int) -> bool:
+def _is_begun(texts: Sequence[str], start: int, at: int, resume: int) -> bool:
     """Whether the words from ``start`` to ``at`` are those from ``resume`` on, the last as far as it was said."""
     length = at - start
     if list(texts[start : at - 1]) != list(texts[resume : resume + length - 1]):
