@@ -12,9 +12,10 @@ from grounding.ordering import ORDINALS
 from grounding.pointing import likely_rows
 from robot.geometry import Point, Pose
 
+from .corrections import said_instead
 from .events import Pointing, Tone
 from .fusion import fuse, pointing_form, recent, replaced
-from .instructions import ask_kirby, confirm, instruct, obey
+from .instructions import ask_kirby, instruct, obey
 from .session import Question
 from .table import Activity, State
 from .turn import Turn
@@ -46,13 +47,25 @@ def yes(turn: Turn, time_s: float, repaired: str | None = None) -> None:
     if question is not None and (turn.session.state is not State.AWAITING_CONFIRMATION or repaired is not None):
         ask_again(turn)
     elif question is not None:
-        confirm(turn, question, time_s)
+        _confirmed(turn, question, time_s)
     elif form is not None:
         obey(turn, (replace(instruct(form), repaired=repaired),), time_s)
     elif recent(turn.session.pointings, time_s):
-        obey(turn, (_GO_THERE,), time_s)
+        obey(turn, (replace(_GO_THERE, repaired=repaired),), time_s)
     else:
         turn.say("Okay.")
+
+
+def _confirmed(turn: Turn, question: Question, time_s: float) -> None:
+    """Do what was asked about, and before it what gets the rest out of its way."""
+    turn.settle()
+    if question.commands:
+        turn.dispatch(question.commands)
+        turn.update(ideal=None)
+    if question.acts[0].function is Function.CORRECT:
+        said_instead(turn, question.acts[0], time_s)
+    else:
+        obey(turn, question.acts, time_s)
 
 
 def thumb_up(turn: Turn, time_s: float) -> None:
@@ -72,7 +85,7 @@ def no(turn: Turn, time_s: float, repaired: str | None = None) -> None:
     elif form is not None:
         obey(turn, (replace(instruct(form), repaired=repaired),), time_s)
     elif turn.session.moving:
-        obey(turn, (instruct(Term("cancel")),), time_s)
+        obey(turn, (replace(instruct(Term("cancel")), repaired=repaired),), time_s)
     else:
         turn.say("Okay.")
 

@@ -35,6 +35,9 @@ def said_instead(turn: Turn, act: DialogueAct, time_s: float) -> None:
     history = turn.session.history
     for index in _correctable(turn):
         form = corrected(act.form, history[index].form, turn.lexicon)
+        if form is not None and act.repaired is not None:
+            turn.ask_whether((act,), act.repaired)
+            return
         if form is not None:
             _do_instead(turn, replace(act, form=form), index, time_s)
             return

@@ -13,9 +13,7 @@ from .corrections import said_instead
 from .events import Tone, Utterance
 from .fragments import said_fragment
 from .instructions import ask_kirby, obey, tell_kirby
-from .session import Question
 from .stopping import STOP, stop_first
-from .table import Trigger
 from .teaching import quoted, teaches
 from .turn import Turn
 from .wording import not_understood
@@ -104,8 +102,7 @@ def _inform(turn: Turn, act: DialogueAct, time_s: float) -> None:
     if not teaches(act.form):
         turn.say("Okay.")
     elif act.repaired is not None:
-        sure = replace(act, repaired=None)
-        turn.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {act.repaired}?", (sure,)))
+        turn.ask_whether((act,), act.repaired)
     else:
         tell_kirby(turn, act, time_s)
 

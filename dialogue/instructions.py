@@ -33,8 +33,7 @@ def obey(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
     turn.settle()
     repaired = [act.repaired for act in acts if act.repaired is not None]
     if repaired:
-        sure = tuple(replace(act, repaired=None) for act in acts)
-        turn.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {repaired[0]}?", sure))
+        turn.ask_whether(acts, repaired[0])
         return
     fused = _fused(turn, acts, time_s)
     if len(fused) == 1 and teaches(fused[0].form):
@@ -161,15 +160,6 @@ def _in_the_way(turn: Turn) -> _Offer | None:
     if Control.STOP in turn.sent and turn.session.moving:
         cancel_all(turn)
     return None
-
-
-def confirm(turn: Turn, question: Question, time_s: float) -> None:
-    """The answer was yes."""
-    turn.settle()
-    if question.commands:
-        turn.dispatch(question.commands)
-        turn.update(ideal=None)
-    obey(turn, question.acts, time_s)
 
 
 def instruct(form: Form) -> DialogueAct:

@@ -63,6 +63,11 @@ class Turn:
         self.trigger(trigger)
         self.say(question.text, Tone.QUESTION)
 
+    def ask_whether(self, acts: tuple[DialogueAct, ...], understood: str) -> None:
+        """Ask whether this was meant, before anything is done about acts that were not surely understood."""
+        sure = tuple(replace(act, repaired=None) for act in acts)
+        self.ask(Trigger.ASK_CONFIRMATION, Question(f"Did you mean: {understood}?", sure))
+
     def ask_which(self, acts: tuple[DialogueAct, ...], hole: Form, candidates: tuple[Entity, ...]) -> None:
         """Show the things that may be meant, and ask which of them goes into the place of ``hole``."""
         ids = tuple(entity.id for entity in candidates)
