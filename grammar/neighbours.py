@@ -9,7 +9,7 @@ from voxml.vocabulary import Lexicon
 from .machine import Edge
 from .tokens import MARKS
 
-_DIRECTIONS = frozenset({"AXIS", "SIDE", "HEADING"})
+_WITHOUT_OF = frozenset({"AXIS", "SIDE", "HEADING", "WHAT_ASK"})
 _QUALITIES = frozenset({"ADJECTIVE", "ORDINAL", "SIDE_ADJ"})
 _NAMES_OF_THINGS = frozenset({"NOUN", "NOUNS"})
 _COMPARED = frozenset({"ADJECTIVE", "ORDINAL"})
@@ -39,13 +39,13 @@ class Neighbours:
         self._to_do = _in(categories, {"VERB", "LIGHT"})
         self._clauses = self._verbs | _in(categories, {"LIGHT"}) | self._addresses
         self._ways = _in(categories, {"AXIS", "SIDE", "HEADING", "PLACE", "PATH"}) - self._nouns
-        self._described = _in(categories, {"ADJECTIVE", "ORDINAL"})
+        self._before_nouns = _in(categories, {"DETERMINER", "SIDE_ADJ", "ADJECTIVE", "ORDINAL"})
         self._ends_and_ways = _in(categories, {"AXIS"}) & self._nouns
         self._ones = _in(categories, {"ONE"})
         self._nouns |= self._ones
         self._sides = _in(categories, {"SIDE_ADJ"})
         self._places = frozenset(sense.words[0] for sense in lexicon.all_senses() if sense.category == "LOC")
-        self._places -= self._determiners | self._ways
+        self._places -= self._determiners | self._ways | self._of
         adjectives = {sense.words[0] for sense in lexicon.all_senses() if sense.category == "ADJECTIVE"}
         openers = (
             self._addresses | self._refusals | self._openers | self._intensifiers | self._ones | self._ends_and_ways
@@ -97,7 +97,7 @@ class Neighbours:
         """ "and back" is a way; the back of something has its article, or its "of"."""
         if texts[at] not in self._ends_and_ways or _follows(texts, at + 1, self._of):
             return found
-        if at and texts[at - 1] in self._determiners | self._sides | self._described:
+        if at and texts[at - 1] in self._before_nouns:
             return found
         return tuple(edge for edge in found if edge.length > 1 or edge.terminal != "NOUN")
 
@@ -108,7 +108,7 @@ class Neighbours:
             edge
             for edge in found
             if not _follows(texts, at + edge.length, self._of)
-            or not ((is_noun and edge.terminal in _QUALITIES) or (edge.length > 1 and edge.terminal in _DIRECTIONS))
+            or not ((is_noun and edge.terminal in _QUALITIES) or (edge.length > 1 and edge.terminal in _WITHOUT_OF))
         )
 
     def _qualities(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:

@@ -123,7 +123,7 @@ def flat_chain(modifiers: tuple[Form, ...]) -> tuple[Form, ...]:
 
 def bare_phrase(what: Nominal) -> Form:
     """Without a determiner: "go to table" means the one there is, "find doors" some, "one of the doors" any."""
-    if what.noun == ONE and what.modifiers and _is_of(what.modifiers[0]):
+    if what.noun == ONE and not what.plural and what.modifiers and _is_of(what.modifiers[0]):
         return phrase(Term("a"), what)
     return phrase(Term("some" if what.plural else "the"), what)
 
