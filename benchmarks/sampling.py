@@ -1,7 +1,8 @@
 """Sentences sampled from the grammar, read back: how many come back as the form they were sampled from.
 
-One that does not is ambiguous (its form is among the other readings), or looks like a repair ("two or three" is a
-number that replaces another), or is lost: the grammar's own choices cut its reading off. Those are listed.
+One that does not is ambiguous: the form it was sampled from is one of its readings, and another is preferred. Or it is
+heard as a slip of the tongue ("this this one" is said twice), so that other words are read than were sampled. Both are
+listed, with the form sampled and what was read. What is neither is lost.
 
 Run as ``python -m benchmarks.sampling [SENTENCES] [--seed N] [--json]``.
 """
@@ -11,48 +12,61 @@ from __future__ import annotations
 import argparse
 import json
 import random
-from collections import Counter
-from itertools import islice
+from enum import Enum
 from typing import Any
 
+from grammar.acts import DialogueAct, NotUnderstood
 from grammar.reader import Reader
 from grammar.sampling import Sample, Sampler
 from voxml.vocabulary import load_lexicon
 
 SENTENCES = 20_000
-READINGS_MAX = 500
-LISTED_MAX = 200
+
+
+class Outcome(Enum):
+    """What came of a sampled sentence."""
+
+    SAME = "same"
+    AMBIGUOUS = "ambiguous"
+    SLIP = "heard_as_slip"
+    LOST = "lost"
 
 
 def run(sentences: int = SENTENCES, seed: int = 1) -> dict[str, Any]:
-    """Counts of what came of the sentences, and the ambiguous and the lost ones themselves."""
+    """How many sentences had each outcome, and all that did not come back: sentence, form sampled, and form read."""
     lexicon = load_lexicon()
     reader, sampler = Reader(lexicon), Sampler(lexicon, random.Random(seed).choice)
-    counts: Counter[str] = Counter()
-    listed: dict[str, list[str]] = {"ambiguous": [], "lost": []}
+    listed: dict[Outcome, list[str]] = {outcome: [] for outcome in Outcome if outcome is not Outcome.SAME}
     for _ in range(sentences):
         sample = sampler.sample()
-        outcome = came_back(reader, sample)
-        counts[outcome] += 1
-        if outcome in listed:
-            listed[outcome].append(f"{sample.text} | {sample.form}")
+        acts = reader.read(sample.text)
+        outcome = came_back(reader, sample, acts)
+        if outcome is not Outcome.SAME:
+            listed[outcome].append(f"{sample.text} | {sample.function.value} {sample.form} | {_shown(acts)}")
     return {
         "sentences": sentences,
-        **{name: counts[name] for name in ("same", "ambiguous", "repair", "lost")},
-        "same_or_ambiguous": 1 - counts["lost"] / sentences,
-        **{f"{name}_sentences": found[:LISTED_MAX] for name, found in listed.items()},
+        "same": sentences - sum(map(len, listed.values())),
+        **{outcome.value: len(found) for outcome, found in listed.items()},
+        **{f"{outcome.value}_sentences": found for outcome, found in listed.items()},
     }
 
 
-def came_back(reader: Reader, sample: Sample) -> str:
-    """``same``, ``ambiguous``, ``repair`` or ``lost``."""
-    acts = reader.read(sample.text)
+def came_back(reader: Reader, sample: Sample, acts: tuple[DialogueAct, ...] | NotUnderstood) -> Outcome:
+    """The outcome for a sample of which the reader made these acts."""
     meant = (sample.function, sample.form)
-    if isinstance(acts, tuple) and [(act.function, act.form) for act in acts] == [meant]:
-        return "same"
+    if isinstance(acts, NotUnderstood):
+        return Outcome.LOST
+    if [(act.function, act.form) for act in acts] == [meant]:
+        return Outcome.SAME
     if not reader.is_fluent(sample.text):
-        return "repair"
-    return "ambiguous" if meant in islice(reader.readings(sample.text), READINGS_MAX) else "lost"
+        return Outcome.SLIP
+    return Outcome.AMBIGUOUS if meant in reader.readings(sample.text) else Outcome.LOST
+
+
+def _shown(acts: tuple[DialogueAct, ...] | NotUnderstood) -> str:
+    if isinstance(acts, NotUnderstood):
+        return "not understood"
+    return ", ".join(f"{act.function.value} {act.form}" for act in acts)
 
 
 def main() -> None:

@@ -46,9 +46,8 @@ class Reader:
         """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
         if len(text) > TEXT_MAX_CHARS:
             return NotUnderstood((TEXT_MAX_CHARS, len(text)), (f"at most {TEXT_MAX_CHARS} characters",))
-        cleaned, corrects = self._fluency.clean(self._tokenizer(text))
         failure = None
-        for tokens, machine in self._attempts(cleaned):
+        for tokens, corrects, machine in self._attempts(tuple(self._tokenizer(text))):
             search = Search(self.lattice(tokens), machine, self._leading)
             clauses = search.clauses()
             if clauses:
@@ -57,13 +56,16 @@ class Reader:
         assert failure is not None
         return failure
 
-    def _attempts(self, tokens: tuple[Token, ...]) -> Iterator[tuple[tuple[Token, ...], Machine]]:
-        """The words to read and what to read them by, each where nothing came of the one before."""
-        yield tokens, self._machine
-        yield tokens, self._thorough_machine
-        fewer = self._fluency.cleaned_again(tokens)
-        if fewer != tokens:
-            yield fewer, self._machine
+    def _attempts(self, said: tuple[Token, ...]) -> Iterator[tuple[tuple[Token, ...], bool, Machine]]:
+        """The words to read, whether they correct, and what reads them: each where nothing came of the one before."""
+        cleaned, corrects = self._fluency.clean(said)
+        yield cleaned, corrects, self._machine
+        yield cleaned, corrects, self._thorough_machine
+        fewer = self._fluency.cleaned_again(cleaned)
+        if fewer != cleaned:
+            yield fewer, corrects, self._machine
+        if said != cleaned:
+            yield said, False, self._machine  # what looks like a slip of the tongue may be none: "i am sorry"
 
     def tokens(self, text: str) -> tuple[Token, ...]:
         """The words that are read: without hesitations, repetitions and what was taken back."""

@@ -37,10 +37,15 @@ class Search:
         start, before = self._past_connectives(at)
         if start >= self._count:
             return ()
+        found = self._from(start)
+        if found is None and start > at:
+            found, before = self._from(at), False  # "next or last" is an ordinal after all
+        return None if found is None else (replace(found[0], before=before), *found[1:])
+
+    def _from(self, start: int) -> Clauses | None:
         if start not in self._known:
             self._known[start] = self._read_from(start)
-        found = self._known[start]
-        return None if found is None else (replace(found[0], before=before), *found[1:])
+        return self._known[start]
 
     def _read_from(self, start: int) -> Clauses | None:
         if self._depth >= CLAUSES_MAX:
