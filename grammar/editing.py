@@ -68,12 +68,11 @@ class EditingTerms:
 
     def _before_phrase(self, texts: Sequence[str], at: int) -> int:
         """A term that is one only before an amount, or before some phrase that may replace another."""
-        if at and self._words.joins(texts, at - 1):
+        of_amounts = self._of_amounts.length(texts, at) if at else 0
+        end = at + (of_amounts or self._of_phrases.length(texts, at))
+        if end == at or end >= len(texts) or (at and self._words.joins(texts, at - 1)):
             return 0
-        length = self._of_amounts.length(texts, at) if at else 0
-        if 0 < length < len(texts) - at and self._words.kind(texts, at + length) == "number":
-            return length
-        end = at + self._of_phrases.length(texts, at)
-        if end >= len(texts) or self._words.begins_clause(texts, end):
-            return 0  # "how do I make it go"
-        return end - at if self._words.kind(texts, end) in _PHRASE_KINDS else 0
+        kind = self._words.kind(texts, end)
+        if of_amounts:
+            return of_amounts if kind == "number" else 0
+        return end - at if kind in _PHRASE_KINDS and not self._words.begins_clause(texts, end) else 0

@@ -47,7 +47,9 @@ class Fragments:
         return [
             token
             for token, after in zip(tokens, following, strict=False)
-            if token.text in self._editing or not _is_beginning(token.text, after)
+            if token.text in self._editing
+            or not _is_beginning(token.text, after)
+            or self._words.differ(token.text, after)
         ]
 
     def _is_broken_off(self, word: str, before: Sequence[str], following: Sequence[str]) -> bool:
@@ -86,7 +88,7 @@ class Fragments:
     def _is_dropped(self, word: str, before: Sequence[str], following: Sequence[str]) -> bool:
         """Whether an unknown word was given up for what follows."""
         after = following[0] if following else ""
-        begun = [known for known in self._words.vocabulary if known.startswith(word)] if after else []
+        begun = list(self._words.beginning_with(word)) if after else []
         if begun and (_shared(word, after) >= _SHARED_MIN or _said_again(before, following)):
             return True
         if begun and self._words.is_number(after) and any(map(self._words.is_number, begun)):

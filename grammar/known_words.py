@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from bisect import bisect_left
+from collections.abc import Iterator, Sequence
+from itertools import takewhile
 
 from voxml.vocabulary import Lexicon
 
@@ -17,6 +19,7 @@ _RELATION = frozenset({"PATH", "LOC"})
 _THING = frozenset({"NOUN", "NOUNS", "ADJECTIVE", "ORDINAL", "DETERMINER", "DEMONSTRATIVE", "SIDE_ADJ"})
 _KINDS = (("direction", _DIRECTION), ("relation", _RELATION), ("thing", _THING))
 _NAMED = frozenset({"NOUN", "NOUNS", "ADJECTIVE", "SIDE_ADJ", "EVENT"})
+_MEANT = _NAMED | {"VERB", "HEADING"}
 _JOINING = frozenset({"AND", "THEN", "BUT"})
 _PHRASE_MAX = 8
 
@@ -32,6 +35,7 @@ class KnownWords:
         self.amounts = amounts
         self.leads = FixedPhrases.of(closed, "LEAD")
         self._lexicon = lexicon
+        self._sorted = sorted(self.vocabulary)
         self._joining = frozenset(closed.table("AND")) | frozenset(closed.table("THEN"))
         self._not = frozenset(closed.table("NOT"))
         self._idle = frozenset(closed.table("skip")) | frozenset(closed.table("reply")) | MARKS
@@ -39,6 +43,13 @@ class KnownWords:
 
     def is_word(self, word: str) -> bool:
         return word in self.vocabulary or word in MARKS or word[0].isdigit() or self.amounts.may_start(word)
+
+    def beginning_with(self, letters: str) -> Iterator[str]:
+        """The known words that begin with the letters."""
+        start = bisect_left(self._sorted, letters)
+        return takewhile(
+            lambda word: word.startswith(letters), (self._sorted[at] for at in range(start, len(self._sorted)))
+        )
 
     def is_number(self, word: str) -> bool:
         return self.amounts.numbers.is_number_word(word)
@@ -75,6 +86,12 @@ class KnownWords:
             return self.amounts.unit_of(first) == self.amounts.unit_of(second)
         meant = [(sense.category, sense.value) for sense in self._lexicon.lookup(first)]
         return any((sense.category, sense.value) in meant for sense in self._lexicon.lookup(second))
+
+    def differ(self, first: str, second: str) -> bool:
+        """Whether two words of one category stand for different things: "north" and "northwest"."""
+        meant = {sense.category: sense.value for sense in self._lexicon.lookup(first)}
+        others = {sense.category: sense.value for sense in self._lexicon.lookup(second)}
+        return any(meant[category] != others[category] for category in _MEANT & meant.keys() & others.keys())
 
     def kinds(self, texts: Sequence[str], at: int) -> frozenset[str]:
         """The categories of the longest phrase that begins with the word."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from voxml.terms import Name, Quantity, Term
+from voxml.terms import Name, Quantity, Term, Unit
 from voxml.vocabulary import Lexicon
 
 from .amounts import AmountReader
@@ -17,6 +17,7 @@ from .tokens import MARKS
 DERIVED_TERMINALS = (*("QTY", "QTY_MORE", "NUMBER", "CARDINAL", "PREDICATIVE", "NAME", "NEW_NAME", "NAME_GIVEN"),)
 _FIRST_CHOICE = frozenset({"STOPPING", "LIGHT", "WAY", "BEFORE", "ENUM", "PRAISE", "VAGUE", "AXIS", "CLOSER", "AGAIN"})
 _SECOND_CHOICE = frozenset({"PATH", "NUMBER", "CARDINAL"})
+_SIDES = frozenset({"SIDE"})
 _DIRECTIONS = frozenset({"AXIS", "SIDE", "HEADING"})
 CARDINAL_MAX = 100
 HOURS_MAX = 12
@@ -105,10 +106,9 @@ class WordReader:
         number = reader.numbers.number(texts, at)
         if number is not None:
             found.extend(self._numbers(texts, at, *number))
-            if amount is None and self._follows_direction(texts, at):
-                elided = reader.with_unit_before(texts, at)
-                if elided is not None:
-                    found.append(Edge("QTY", elided[0], elided[1] - at))
+            elided = reader.with_unit_before(texts, at) if amount is None else None
+            if elided is not None and self._goes_on_with(texts, at, elided[0].unit):
+                found.append(Edge("QTY", elided[0], elided[1] - at))
         more = reader.more(texts, at)
         if more is not None:
             found.append(Edge("QTY_MORE", Term("more", (Quantity(more[0]),)), more[1] - at))
@@ -124,9 +124,17 @@ class WordReader:
             found.append(Edge("CARDINAL", value, length))
         return found
 
-    def _follows_direction(self, texts: Sequence[str], at: int) -> bool:
-        before = self._entries.get(texts[at - 1], _NOTHING) if at else _NOTHING
-        return any(edge.terminal in _DIRECTIONS for edge in before.alone)
+    def _goes_on_with(self, texts: Sequence[str], at: int, unit: Unit) -> bool:
+        """Whether a number behind a direction may have left out the unit before: "(one meter and) back two", but not
+        "(forward 3 feet,) right 90", for feet to a side take a side before them too."""
+        if not at or not self._may_be(texts[at - 1], _DIRECTIONS):
+            return False
+        if unit is Unit.DEGREE or not self._may_be(texts[at - 1], _SIDES):
+            return True
+        return any(self._may_be(text, _SIDES) for text in texts[: at - 1])
+
+    def _may_be(self, word: str, terminals: frozenset[str]) -> bool:
+        return any(edge.terminal in terminals for edge in self._entries.get(word, _NOTHING).alone)
 
 
 def _preference(edge: Edge) -> tuple[bool, int, int]:
