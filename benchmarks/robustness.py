@@ -1,7 +1,7 @@
 """A million strings that nobody would say: none raises, none takes long, what is not understood moves nothing.
 
 Strings are random bytes as text, and sentences sampled from the grammar with words dropped, doubled, swapped, cut off
-or misspelt. Each is read and planned as ``kirby parse`` does, with a proposer at its worst: always sure, and of anything.
+or misspelt. Each is read and planned as ``kirby parse`` does, with a proposer at its worst, always sure of anything.
 Times are of the processor, whatever else it does.
 
 Run as ``python -m benchmarks.robustness [STRINGS] [--processes 2] [--json]``.
