@@ -22,9 +22,9 @@ from typing import Any
 from corpora.cases import Case, load_corpus
 from corpora.runner import FOLDER
 from grammar import parse
+from grammar.automaton import terminals_of
 from grammar.explain import Explainer
 from grammar.language import language_grammar
-from grammar.machine import terminals_of
 from grammar.reader import Reader
 from voxml.vocabulary import load_lexicon
 

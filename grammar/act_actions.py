@@ -5,8 +5,9 @@ from __future__ import annotations
 from voxml.terms import Form, Quantity, Term
 
 from .acts import Function
-from .machine import Action, Refused
+from .machine import Refused
 from .phrases import ONE, pred_of
+from .tables import Action
 
 Act = tuple[Function, Form]
 _AGAIN = Term("again")

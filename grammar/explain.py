@@ -9,9 +9,10 @@ from typing import Any
 from voxml.vocabulary import Lexicon
 
 from .acts import DialogueAct, NotUnderstood
-from .machine import Action, Edge, Machine, Trace
+from .machine import Edge, Machine, Trace
 from .meaning import Meaning
 from .reader import Reader, tables_of
+from .tables import Action
 from .tokens import Token
 
 

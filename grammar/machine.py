@@ -8,17 +8,15 @@ state could both shift and reduce, it shifts; a thorough walk tries to reduce as
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
 from typing import Any
 
-END = "$END"
+from .tables import END, Tables
+
 STATES_MAX = 20
 STEPS_MAX = 4_000
-
-Action = Callable[..., Any]
 
 
 class Refused(Exception):  # noqa: N818 - a reading that does not hold, with the reason; not an error of the program
@@ -35,106 +33,6 @@ class Edge:
     terminal: str | None
     value: Any
     length: int
-
-
-@dataclass(frozen=True, slots=True)
-class Reduction:
-    """A rule to reduce by: how many values it takes, where it goes, and what it makes of them."""
-
-    origin: str
-    size: int
-    action: Action
-
-
-@dataclass(frozen=True, slots=True)
-class Tables:
-    """Shifts, reductions and gotos by state and symbol. A state may both shift a terminal and reduce before it."""
-
-    start: int
-    accept: int
-    shifts: tuple[dict[str, int], ...]
-    reductions: tuple[dict[str, Reduction], ...]
-    gotos: tuple[dict[str, int], ...]
-
-    def expected(self, states: tuple[int, ...]) -> frozenset[str]:
-        """The terminals that one of the states accepts; of the start where there is none."""
-        accepted = (self.shifts[state].keys() | self.reductions[state].keys() for state in states or (self.start,))
-        return frozenset().union(*accepted) - {END}
-
-
-def build_tables(grammar: str, terminals: Iterable[str], actions: Callable[[str], Action | None]) -> Tables:
-    """Compile a grammar in Lark's notation, whose terminals are declared to it, into tables.
-
-    ``actions`` gives the action for a rule's alias (or its name); a rule without one and of one symbol passes its
-    value on.
-    """
-    missing = sorted(set(terminals_of(grammar)) - set(terminals))
-    if missing:
-        raise ValueError(f"grammar uses {', '.join(missing)}, of which the lexicon has no words")
-    analysis = _analysed(grammar)
-    number = {state: index for index, state in enumerate(analysis.lr0_itemsets)}
-    known: dict[Any, Reduction] = {}
-    shifts, reductions, gotos = [], [], []
-    for state in number:
-        following = {str(symbol.name): number[target] for symbol, target in state.transitions.items()}
-        shifts.append({name: target for name, target in following.items() if name.isupper()})
-        gotos.append({name: target for name, target in following.items() if not name.isupper()})
-        reductions.append(
-            {
-                str(symbol.name): known.setdefault(rule, _reduction(rule, actions))
-                for symbol, (rule,) in state.lookaheads.items()
-            }
-        )
-    start = number[analysis.lr0_start_states["start"]]
-    return Tables(start, gotos[start]["start"], tuple(shifts), tuple(reductions), tuple(gotos))
-
-
-@dataclass(frozen=True, slots=True)
-class Rule:
-    """One expansion of a symbol, and what it makes of the values of its parts."""
-
-    expansion: tuple[str, ...]
-    action: Action
-
-
-def grammar_rules(grammar: str, actions: Callable[[str], Action | None]) -> dict[str, tuple[Rule, ...]]:
-    """The rules of a grammar by the symbol they expand, with their actions as in `build_tables`."""
-    rules: dict[str, list[Rule]] = {}
-    for rule in _compiled(grammar).rules:
-        expansion = tuple(str(symbol.name) for symbol in rule.expansion)
-        reduction = _reduction(rule, actions)
-        rules.setdefault(reduction.origin, []).append(Rule(expansion, reduction.action))
-    return {symbol: tuple(found) for symbol, found in rules.items()}
-
-
-def terminals_of(grammar: str) -> list[str]:
-    """The names of the terminals that a grammar uses."""
-    return sorted(set(re.findall(r"\b[A-Z][A-Z_]+\b", re.sub(r"//.*", "", grammar))))
-
-
-def _compiled(grammar: str) -> Any:
-    from lark import Lark  # imported where it is used: it is the slowest import of the room
-
-    text = f"{grammar}\n%declare {' '.join(terminals_of(grammar))}\n"
-    return Lark(text, parser="earley", lexer="basic", start="start", maybe_placeholders=False)
-
-
-def _analysed(grammar: str) -> Any:
-    """Lark's LALR(1) analysis. Raises GrammarError where two rules could be reduced before the same terminal."""
-    from lark.common import ParserConf
-    from lark.parsers.lalr_analysis import LALR_Analyzer
-
-    analysis: Any = LALR_Analyzer(ParserConf(_compiled(grammar).rules, {}, ["start"]))
-    analysis.compute_lalr()
-    return analysis
-
-
-def _reduction(rule: Any, actions: Callable[[str], Action | None]) -> Reduction:
-    name = str(rule.alias or rule.origin.name)
-    action, size = actions(name), len(rule.expansion)
-    if action is None and size != 1:
-        raise ValueError(f"rule {name} of {size} symbols has no action")
-    return Reduction(str(rule.origin.name), size, action or (lambda value: value))
 
 
 @dataclass(slots=True)

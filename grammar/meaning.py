@@ -9,9 +9,10 @@ from . import phrases
 from .act_actions import ACT_ACTIONS, COMMAND_ACTIONS, Act
 from .acts import Function
 from .arguments import Args, Kind
-from .machine import Action, Refused
+from .machine import Refused
 from .phrase_actions import ARGUMENT_ACTIONS, NOUN_PHRASE_ACTIONS
 from .question_actions import CONDITION_ACTIONS, QUESTION_ACTIONS, STATEMENT_ACTIONS
+from .tables import Action
 from .verbs import VerbActions
 
 _PLAIN: dict[str, Action] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from voxml.terms import Name, Term
-from voxml.vocabulary import Lexicon, Reading
+from voxml.vocabulary import Lexicon, Reading, Sense
 
 from .machine import Edge
 from .tokens import MARKS, Token
@@ -22,11 +22,11 @@ class NameReader:
         self._naming = frozenset(lexicon.closed.table("CALL"))
         self._nouns = {
             word: sense.value
-            for word in self._known
-            for sense in lexicon.lookup(word)
+            for word, senses in lexicon.single_words().items()
+            for sense in senses
             if sense.category == "NOUN" and isinstance(sense.value, Term)
         }
-        self._teaching = frozenset(word for word in self._known if _is_taught(lexicon, word))
+        self._teaching = frozenset(word for word, senses in lexicon.single_words().items() if _is_taught(senses))
 
     def may_name(self, texts: Sequence[str]) -> bool:
         """Whether anything in the utterance can be a name."""
@@ -69,10 +69,10 @@ def _ends(tokens: Sequence[Token], at: int) -> bool:
     return at >= len(tokens) or tokens[at].text in MARKS
 
 
-def _is_taught(lexicon: Lexicon, word: str) -> bool:
+def _is_taught(senses: tuple[Sense, ...]) -> bool:
     """Whether the word is a verb that can only take a name, such as "learn"."""
     readings: list[Reading] = []
-    for sense in lexicon.lookup(word):
+    for sense in senses:
         if sense.category == "VERB" and isinstance(sense.value, tuple):
             readings.extend(sense.value)
     return bool(readings) and all(any("name" in slot.types for slot in each.entry.args) for each in readings)

@@ -32,7 +32,8 @@ class Neighbours:
         self._enumerators = frozenset(closed.table("enumerator"))
         self._intensifiers = frozenset(closed.table("intensifier"))
         self._benefactives = frozenset(closed.table("benefactive"))
-        categories = {word: {sense.category for sense in lexicon.lookup(word)} for word in lexicon.vocabulary()}
+        senses = lexicon.single_words()
+        categories = {word: {sense.category for sense in found} for word, found in senses.items()}
         self._determiners = _in(categories, {"DETERMINER"})
         self._nouns = _in(categories, {"NOUN", "NOUNS"})
         self._verbs = _in(categories, {"VERB"}) - self._nouns

@@ -9,8 +9,9 @@ from voxml.vocabulary import Reading
 
 from . import phrases
 from .arguments import Arg, Args, Kind
-from .machine import Action, Refused
+from .machine import Refused
 from .phrases import YOU, Extreme, Pre, Such, pred_of
+from .tables import Action
 
 _ALONE = frozenset({"through", "out_of", "past", "across", "around", "along", "over", "down", "up"})
 _IN_FRONT = Term("in_front_of", (YOU,))

@@ -9,9 +9,9 @@ from voxml.vocabulary import Reading
 
 from . import phrases
 from .arguments import Args
-from .machine import Action
 from .phrase_actions import where
 from .phrases import YOU, Nominal, pred_of
+from .tables import Action
 
 Posts = tuple[Form, ...]
 _FROM = frozenset({"from"})

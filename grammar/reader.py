@@ -15,9 +15,10 @@ from .ellipsis import Completer
 from .expectations import describe_expected
 from .language import language_grammar
 from .lattice import Lattice
-from .machine import Action, Machine, Tables, Trace, build_tables
+from .machine import Machine, Trace
 from .meaning import Meaning
 from .search import Search
+from .tables import Action, Tables, build_tables
 from .tokens import Token, Tokenizer
 from .word_edges import DERIVED_TERMINALS, WordReader
 
@@ -26,7 +27,7 @@ _LEADING = ("SIDE", "AXIS", "HEADING", "VAGUE")
 
 
 class Reader:
-    """Reads utterances with one lexicon and one language's grammar. Immutable; building it takes about 0.2 s."""
+    """Reads utterances with one lexicon and one language's grammar. Immutable."""
 
     def __init__(self, lexicon: Lexicon, language: str = "en") -> None:
         amounts = AmountReader(lexicon.closed)

@@ -18,8 +18,9 @@ from .acts import Function
 from .amounts import AmountReader
 from .language import language_grammar
 from .lattice import Lattice
-from .machine import Edge, Refused, Rule, grammar_rules
+from .machine import Edge, Refused
 from .meaning import Meaning
+from .tables import Rule, grammar_rules
 from .tokens import Token
 from .word_edges import WordReader
 

@@ -78,6 +78,9 @@ _TOKEN = re.compile(
 )
 
 
+_PRED = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,200}")
+
+
 class _Reader:
     def __init__(self, text: str) -> None:
         if len(text) > FORM_MAX_CHARS:
@@ -128,6 +131,8 @@ def parse_form(text: str) -> Form:
     Raises:
         FormError: the text is not of the notation.
     """
+    if _PRED.fullmatch(text):
+        return Term(text)
     reader = _Reader(text)
     form = reader.form()
     if reader.text[reader.at :].strip():

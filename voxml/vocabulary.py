@@ -86,6 +86,14 @@ class Lexicon:
         """Every category that some sense has: the terminals of the grammar that stand for words."""
         return frozenset(sense.category for senses in self._senses.values() for sense in senses)
 
+    def single_words(self) -> dict[str, tuple[Sense, ...]]:
+        """The senses of every word that means something by itself."""
+        return {
+            word: found
+            for word, senses in self._senses.items()
+            if (found := tuple(sense for sense in senses if len(sense.words) == 1))
+        }
+
     def words(self) -> tuple[str, ...]:
         """Every phrase that means something, in alphabetical order: for completion and for the speech recogniser."""
         return tuple(sorted({" ".join(sense.words) for senses in self._senses.values() for sense in senses}))

@@ -57,13 +57,17 @@ def _words(element: Element, name: str, path: Path) -> list[ClosedWord]:
     if element.tag != "Word" or not all(spellings):
         raise VoxmlError(f"{path}: <Class {name}>: write <Word>one | several spellings</Word>")
     value = element.get("Value")
-    return [ClosedWord(tuple(words), *_value(value, words, name, path)) for words in spellings]
+    if value:
+        meant = _meant(value, name, path)
+        return [ClosedWord(tuple(words), *meant) for words in spellings]
+    joint = "_" if name.isupper() else " "
+    return [ClosedWord(tuple(words), *_meant(joint.join(words), name, path)) for words in spellings]
 
 
-def _value(value: str | None, words: list[str], name: str, path: Path) -> tuple[str, Form | None]:
+def _meant(text: str, name: str, path: Path) -> tuple[str, Form | None]:
+    """What a word stands for, as written and as the form it is in classes that are terminals."""
     if not name.isupper():
-        return value or " ".join(words), None
-    text = value or "_".join(words)
+        return text, None
     try:
         return text, parse_form(text)
     except FormError as error:
