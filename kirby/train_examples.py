@@ -113,6 +113,7 @@ class Damager:
         self._guesser = guesser
         self._verbs = _verb_words(lexicon)
         self._vocabulary = lexicon.vocabulary()
+        self._pronouns = tuple(word.words[0] for word in lexicon.closed.words_of("PRONOUN") if len(word.words) == 1)
 
     def whole(self, sentence: Sentence) -> tuple[str, ...]:
         """The sentence as the model sees it undamaged."""
@@ -129,8 +130,9 @@ class Damager:
             label = NONE
         words = self._unknown(words, self._verbs.__contains__, 0.6)
         words = self._unknown(words, lambda word: True, 0.05)
-        if self._rng.random() < 0.15:
-            words.insert(self._rng.randrange(len(words) + 1), UNKNOWN)
+        if self._rng.random() < 0.25:
+            padding = self._rng.choice((UNKNOWN, *self._pronouns))
+            words.insert(self._rng.randrange(len(words) + 1), padding)
         return tuple(words), label
 
     def damaged(self, sentence: Sentence) -> Iterator[Sentence]:

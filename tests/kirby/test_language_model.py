@@ -8,8 +8,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from typer.testing import CliRunner
 
+from grammar import NotUnderstood, parse
 from grammar.guessing import NONE
 from kirby import Agent, Dispatch, GestureKind, LanguageModel, Output, Say, load_lexicon, understand
 from kirby.proposer import ModelError, StoredModel, trained_here
@@ -18,6 +21,11 @@ from robot.messages import encode_command
 
 ORDER = "scrondle two meters forward"
 ASKED = "Did you mean: go two meters forward?"
+
+
+LEXICON = load_lexicon()
+WORDS = sorted(LEXICON.vocabulary())
+PROGRAMS = sorted(LEXICON.programs)
 
 
 def go(words: tuple[str, ...]) -> str:
@@ -60,10 +68,20 @@ def test_without_a_model_it_is_not_understood() -> None:
     assert (record["status"], record["commands"], record["reason"]) == ("ambiguous", None, ASKED)
 
 
+@given(
+    st.lists(st.sampled_from([*WORDS, "scrondle", "flomber", "2"]), min_size=1, max_size=7), st.sampled_from(PROGRAMS)
+)
+def test_nothing_that_was_guessed_moves_the_robot_before_it_is_confirmed(words: list[str], pred: str) -> None:
+    text = " ".join(words)
+    if isinstance(parse(text), NotUnderstood):
+        outputs = Agent(proposer=lambda words: pred).hear(text, 0.0)
+        assert set(sent(outputs)) <= {"stop"}
+
+
 # ------------------------------------------------------------------ trained
 @pytest.fixture(scope="module")
 def trained() -> Trained:
-    return train(load_lexicon(), lambda line: None, samples=200, epochs=2)
+    return train(LEXICON, lambda line: None, samples=200, epochs=2)
 
 
 def test_a_verb_that_was_never_heard_is_guessed_from_what_goes_with_it(trained: Trained) -> None:
@@ -80,7 +98,7 @@ def test_it_is_seldom_sure_where_nothing_was_asked_for(trained: Trained) -> None
 
 
 def test_training_again_gives_the_same_model(trained: Trained) -> None:
-    again = train(load_lexicon(), lambda line: None, samples=200, epochs=2)
+    again = train(LEXICON, lambda line: None, samples=200, epochs=2)
     assert again.model.classes == trained.model.classes
     assert again.model.pipe.model.to_bytes() == trained.model.pipe.model.to_bytes()
     assert again.scores == trained.scores
