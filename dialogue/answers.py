@@ -197,6 +197,8 @@ def _chosen(turn: Turn, question: Question, form: Form, time_s: float) -> Form |
         return option_meant(form, things)
     if form in _ALL:
         return Term("and", things)
+    if form in _SIDES:
+        form = Term("the", (Term("one", ()), Term("on", (form,))))
     fused, _ = fuse(form, recent(turn.session.pointings, time_s)[-1:])
     outcome = resolve(fused, among, turn.lexicon)
     return _entity(outcome.one) if isinstance(outcome, Grounded) and isinstance(outcome.one, Entity) else None

@@ -32,6 +32,8 @@ def corrected(form: Form, wrong: Form | None, lexicon: Lexicon) -> Form | None:
 
 def said_instead(turn: Turn, act: DialogueAct, time_s: float) -> None:
     """Stop what is wrong, and do the right thing and what was to come after it. With nothing to lean on, stop."""
+    if _answered_otherwise(turn, act, time_s):
+        return
     history = turn.session.history
     for index in _correctable(turn):
         form = corrected(act.form, history[index].form, turn.lexicon)
@@ -45,6 +47,18 @@ def said_instead(turn: Turn, act: DialogueAct, time_s: float) -> None:
     obey(turn, (instruct(STOP) if form is None else replace(act, form=form),), time_s)
 
 
+def _answered_otherwise(turn: Turn, act: DialogueAct, time_s: float) -> bool:
+    """Do instead of what Kirby asked about what was meant; False where that has nothing to do with it."""
+    question = turn.session.question
+    if question is None or not question.acts:
+        return False
+    *before, asked = question.acts
+    form = corrected(act.form, asked.form, turn.lexicon)
+    if form is not None:
+        obey(turn, (*before, replace(act, form=form)), time_s)
+    return form is not None
+
+
 def _correctable(turn: Turn) -> list[int]:
     """What was told last, and before it what is still to be done, by its place in the history, the latest first."""
     history = turn.session.history
@@ -54,7 +68,7 @@ def _correctable(turn: Turn) -> list[int]:
 
 def _left(turn: Turn, past: Past) -> tuple[str, ...]:
     """The ids of what has not ended of an instruction."""
-    return tuple(task.id for task in turn.session.tasks if task.id in past.ids)
+    return tuple(task.id for task in turn.session.pending if task.id in past.ids)
 
 
 def _do_instead(turn: Turn, act: DialogueAct, index: int, time_s: float) -> None:
@@ -76,13 +90,13 @@ def _do_instead(turn: Turn, act: DialogueAct, index: int, time_s: float) -> None
 def _drop(turn: Turn, wrong: tuple[Past, ...]) -> bool:
     """Cancel what is left of these, and nothing else; whether the first of them has begun."""
     left = tuple(name for past in wrong for name in _left(turn, past))
-    moving = [task.id for task in turn.session.tasks if task.moves]
-    if moving and moving[0] not in left and left:
+    pending = turn.session.pending
+    if left and pending[0].id not in left:
         # The last first, so that none of them begins in between.
         turn.dispatch(tuple(CancelCommand(name) for name in reversed(left)))
         turn.update(ideal=wrong[0].start, agenda=None)
         return False
-    if moving:
+    if pending:
         cancel_all(turn)
     return True
 

@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from grammar.acts import DialogueAct, Function, NotUnderstood
-from grammar.forms import Term
+from grammar.forms import Name, Term
 
 from .answers import answer, ask_again, no, yes
 from .corrections import said_instead
 from .events import Tone, Utterance
 from .fragments import said_fragment
-from .instructions import ask_kirby, obey, tell_kirby
+from .instructions import ask_kirby, forbids, instruct, obey, tell_kirby
 from .stopping import STOP, stop_first
 from .teaching import quoted, teaches
 from .turn import Turn
@@ -21,8 +21,8 @@ from .wording import not_understood
 _CONFIDENT = 0.6
 """What a recogniser is less sure of than this is confirmed before anything moves."""
 _LEANING = frozenset({Function.FRAGMENT, Function.CORRECT})
-_CANCEL = Term("cancel")
-"""While nothing moves it can only mean what Kirby asks: "never mind"."""
+_CALLING_OFF = frozenset({Term("cancel"), Term("cancel_all"), Term("cancel", (Term("all"),))})
+"""While nothing moves they can only mean what Kirby asks: "never mind"."""
 
 
 def hear(turn: Turn, event: Utterance) -> None:
@@ -36,7 +36,7 @@ def hear(turn: Turn, event: Utterance) -> None:
         return
     if told := tuple(act.form for act in acts if act.function is not Function.QUESTION):
         turn.update(heard=told)
-    acts = stop_first(acts, event.text, turn.lexicon)
+    acts = stop_first(acts, event.text, turn.lexicon, turn.session.moving)
     if acts[0].form == STOP and acts[0].function is Function.INSTRUCT:
         obey(turn, acts[:1], event.time_s)
         acts = acts[1:]
@@ -46,12 +46,23 @@ def hear(turn: Turn, event: Utterance) -> None:
 
 
 def _read(turn: Turn, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
-    """What was said; where that makes no sense as it stands, with the names that were taught read as names."""
+    """What was said; where that makes no sense as it stands, with the names that were taught read as names.
+
+    To forget or to do a routine of that name makes more sense than anything else.
+    """
     acts = turn.parse(text)
-    if not _is_sure(acts) and (named := quoted(text, turn)) != text:
+    if (named := quoted(text, turn)) != text:
         again = turn.parse(named)
-        return again if _is_sure(again) else acts
+        if _is_sure(again) and (not _is_sure(acts) or _is_of_routine(again)):
+            return again
     return acts
+
+
+def _is_of_routine(acts: tuple[DialogueAct, ...] | NotUnderstood) -> bool:
+    if isinstance(acts, NotUnderstood) or len(acts) > 1:
+        return False
+    (form,) = (act.form for act in acts)
+    return isinstance(form, Term) and form.pred in ("forget", "perform") and isinstance(form.args[0], Name)
 
 
 def _is_sure(acts: tuple[DialogueAct, ...] | NotUnderstood) -> bool:
@@ -74,10 +85,17 @@ def _do_acts(turn: Turn, acts: tuple[DialogueAct, ...], time_s: float) -> None:
 
 
 def _obey(turn: Turn, instructions: tuple[DialogueAct, ...], time_s: float) -> None:
-    withdrawn = [act.form for act in instructions] == [_CANCEL] and not turn.session.moving
-    if withdrawn and turn.session.question is not None:
-        no(turn, time_s)
-    else:
+    """What calls off comes first and by itself, whatever becomes of the rest."""
+    sure = all(act.repaired is None for act in instructions)
+    if sure and turn.session.moving and all(forbids(act.form) for act in instructions):
+        obey(turn, (instruct(STOP),), time_s)
+    while sure and instructions and instructions[0].form in _CALLING_OFF:
+        if turn.session.question is not None and not turn.session.moving:
+            no(turn, time_s)
+        else:
+            obey(turn, instructions[:1], time_s)
+        instructions = instructions[1:]
+    if instructions:
         obey(turn, instructions, time_s)
 
 

@@ -115,11 +115,11 @@ def _send(turn: Turn, made: Plan, acts: tuple[DialogueAct, ...]) -> None:
             past = Past(tuple(act.form for act in acts), made.commands, start, ids)
             turn.update(history=(*turn.session.history, past)[-HISTORY_MAX:])
     elif not made.events:
-        turn.say("Okay." if made.then is not None or all(map(_forbids, acts)) else "There is nothing to do for that.")
-
-
-def _forbids(act: DialogueAct) -> bool:
-    return isinstance(act.form, Term) and act.form.pred == "not"
+        turn.say(
+            "Okay."
+            if made.then is not None or all(forbids(act.form) for act in acts)
+            else "There is nothing to do for that."
+        )
 
 
 def _moves(command: Command) -> bool:
@@ -151,7 +151,7 @@ def _in_the_way(turn: Turn) -> _Offer | None:
     """What the robot would refuse new movements for. Told to stop and do something else, it drops what it stopped."""
     if turn.sent & _CLEARING:
         return None
-    current = next((task.command for task in turn.session.tasks if task.moves), None)
+    current = next((task.command for task in turn.session.pending), None)
     if turn.session.activity is Activity.PATROLLING or isinstance(current, Patrol):
         return _Offer("I am patrolling. Shall I stop the patrol", Control.STOP_PATROL)
     if turn.session.activity in (Activity.PAUSED, Activity.LEFT_OVER):
@@ -160,6 +160,11 @@ def _in_the_way(turn: Turn) -> _Offer | None:
     if Control.STOP in turn.sent and turn.session.moving:
         cancel_all(turn)
     return None
+
+
+def forbids(form: Form) -> bool:
+    """Whether an instruction is to leave something undone."""
+    return isinstance(form, Term) and form.pred == "not"
 
 
 def instruct(form: Form) -> DialogueAct:

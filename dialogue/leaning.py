@@ -68,7 +68,7 @@ def _returned(session: Session) -> Form:
     to_its_start = Term("go", (Term("to", (point_form(last.start.point),)),))
     if not last.commands:  # it comes before this in the same breath
         return to_its_start
-    current = next((task.id for task in session.tasks if task.moves), None)
+    current = next((task.id for task in session.pending), None)
     if len(last.ids) < 2 or current == last.ids[0]:
         return _GO_BACK
     return Term("seq", (Term("cancel", (Term("all"),)), to_its_start)) if session.moving else to_its_start

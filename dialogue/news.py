@@ -71,7 +71,7 @@ def hear_robot(turn: Turn, event: RobotFeedback) -> None:
 
 def _recomputed(session: Session) -> Pose | None:
     """Where what is left ends: the robot works it out anew from where it is (RSB, ``cancel``)."""
-    left = [task.command for task in session.tasks if task.moves]
+    left = [task.command for task in session.pending]
     return reduce(ideal_end, left, session.world.robot) if left else None
 
 

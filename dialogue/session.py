@@ -8,7 +8,7 @@ from grammar.acts import DialogueAct
 from grammar.forms import Form, Term
 from grounding import World
 from robot.geometry import Point, Pose, wrap_angle
-from robot.messages import Command, Control
+from robot.messages import CancelCommand, Command, Control
 
 from .events import Pointing
 from .plans import Deferred
@@ -29,7 +29,10 @@ class Task:
     @property
     def moves(self) -> bool:
         """Whether it takes its turn in the robot's queue, rather than acting at once."""
-        return not isinstance(self.command, Control) or self.command in (Control.GO_BACK, Control.TAKE_PICTURE)
+        return not isinstance(self.command, Control | CancelCommand) or self.command in (
+            Control.GO_BACK,
+            Control.TAKE_PICTURE,
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,9 +139,28 @@ class Session:
         return next((routine for routine in self.routines if _bare(routine.name) == wanted), None)
 
     @property
+    def pending(self) -> tuple[Task, ...]:
+        """The movements that are still to be done: not ended, nor dropped, by id or with all others, by what came after.
+
+        What a plain ``cancel`` drops is known when the robot says so.
+        """
+        left: tuple[Task, ...] = ()
+        for task in self.tasks:
+            match task.command:
+                case Control.CANCEL_ALL:
+                    left = ()
+                case CancelCommand(of):
+                    left = tuple(other for other in left if other.id != of)
+                case Control.GO_BACK:
+                    left = (task,)
+                case _ if task.moves:
+                    left = (*left, task)
+        return left
+
+    @property
     def moving(self) -> bool:
-        """Whether movements were sent that have not ended."""
-        return any(task.moves for task in self.tasks)
+        """Whether there are movements to be done."""
+        return bool(self.pending)
 
     @property
     def start(self) -> Pose:

@@ -22,13 +22,19 @@ def stops(form: Form) -> bool:
             return False
 
 
-def stop_first(acts: tuple[DialogueAct, ...], text: str, lexicon: Lexicon) -> tuple[DialogueAct, ...]:
+def stop_first(
+    acts: tuple[DialogueAct, ...], text: str, lexicon: Lexicon, moving: bool = False
+) -> tuple[DialogueAct, ...]:
     """The acts of an utterance with a stop in front of all others, if it is one that acts at once.
 
     What was told before it is not done any more ("turn left ... stop!"). Only a stop that a word joins to an
-    instruction before it ("go forward and then stop") waits for its turn: it says where that one ends.
+    instruction before it ("go forward and then stop") waits for its turn: it says where that one ends. So does one
+    between two instructions, unless the robot is ``moving``.
     """
-    at = next((index for index in range(len(acts)) if _is_at_once(acts, index, text, lexicon)), None)
+    steps = [index for index, act in enumerate(acts) if act.function is Function.INSTRUCT]
+    between = () if moving else steps[1:-1]
+    stops_at_once = (i for i in steps if i not in between and _is_at_once(acts, i, text, lexicon))
+    at = next(stops_at_once, None)
     if at is None:
         return acts
     stop = acts[at]
@@ -40,7 +46,7 @@ def stop_first(acts: tuple[DialogueAct, ...], text: str, lexicon: Lexicon) -> tu
 
 def _is_at_once(acts: tuple[DialogueAct, ...], index: int, text: str, lexicon: Lexicon) -> bool:
     act = acts[index]
-    if act.function is not Function.INSTRUCT or not stops(act.form):
+    if not stops(act.form):
         return False
     if index == 0 or acts[index - 1].function is not Function.INSTRUCT or act.repaired is not None:
         return True

@@ -11,7 +11,7 @@ from grounding import Reason, Unresolved
 from voxml.vocabulary import Lexicon
 
 from .asked import Asked, Needs, Report
-from .kirby import ABLE, WHO, doing, done, going, todo, understood, why
+from .kirby import WHO, can, doing, done, going, todo, understood, why
 from .places import distance, heading, where
 from .properties import colour, is_, shape, size, what
 from .things import count, exists, list_, see, which
@@ -51,7 +51,7 @@ _ANSWERS: Mapping[str, Callable[[Asked], Report]] = {
     "is": is_,
     "who": lambda asked: Report(WHO),
     "introduce": lambda asked: Report(WHO),
-    "can": lambda asked: Report(ABLE),
+    "can": can,
     "doing": doing,
     "report": doing,
     "going": going,

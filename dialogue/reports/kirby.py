@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dialogue.planning import plan
+from dialogue.plans import Plan, Refusal, Refused
 from dialogue.table import Activity, State
-from dialogue.wording import command_words, phrase, place_words
+from dialogue.wording import command_words, phrase, place_words, refused, unresolved
 from grammar.forms import Term
+from grounding import Ambiguous, Unresolved
 from robot.messages import Command, GoTo, ideal_end
 
-from .asked import Asked, Report, capital
+from .asked import Asked, Report, capital, uncapital
 from .places import NEAR_M
 
 ABLE = (
@@ -17,10 +20,25 @@ ABLE = (
 WHO = "I am Kirby, a mobile robot that you can talk to"
 
 
+def can(asked: Asked) -> Report:
+    """What Kirby is able to do; of one thing, whether it could be done here and now."""
+    action = asked.args[0]
+    if action == Term("what"):
+        return Report(ABLE)
+    outcome = plan((action,), asked.world.with_robot(asked.session.start), asked.lexicon)
+    match outcome:
+        case Plan() | Ambiguous() | Refused(Refusal.NO_SIDE):
+            return Report("Yes")
+        case Unresolved():
+            return Report(f"No: {uncapital(unresolved(outcome)).rstrip('.')}")
+        case Refused():
+            return Report(f"No: {uncapital(refused(outcome)).rstrip('.')}")
+
+
 def doing(asked: Asked) -> Report:
     """What Kirby is at."""
     session = asked.session
-    tasks = [f"'{command_words(task.command)}'" for task in session.tasks if task.moves]
+    tasks = [f"'{command_words(task.command)}'" for task in session.pending]
     match session.activity:
         case Activity.PAUSED | Activity.LEFT_OVER:
             return Report(f"I am paused on {tasks[0]}" if tasks else "I am paused")
@@ -39,8 +57,8 @@ def going(asked: Asked) -> Report:
     if not session.moving:
         return Report("Nowhere: I am not on my way")
     end, first = session.world.robot, True
-    for task in session.tasks:
-        if task.moves and (isinstance(task.command, GoTo) or first):
+    for task in session.pending:
+        if isinstance(task.command, GoTo) or first:
             end, first = ideal_end(end, task.command), False
     near = tuple(e for e in session.world.entities.items if e.point.distance_to(end.point) <= NEAR_M)
     near = tuple(sorted(near, key=lambda e: e.point.distance_to(end.point)))[:1]
@@ -56,7 +74,7 @@ def done(asked: Asked) -> Report:
 def todo(asked: Asked) -> Report:
     """What is still to be done: what was sent and has not ended, and what waits for something to happen."""
     session = asked.session
-    left = [command_words(task.command) for task in session.tasks if task.moves]
+    left = [command_words(task.command) for task in session.pending]
     if session.agenda is not None:
         left += [
             phrase(form) for form in session.agenda.deferred.rest if isinstance(form, Term) and form.pred != "event"
@@ -68,7 +86,7 @@ def understood(asked: Asked) -> Report:
     """What Kirby made of what was said last, and what came of it."""
     heard, last = asked.session.heard, asked.session.last
     if not heard:
-        return Report("Nothing: I did not understand what you said")
+        return Report("I understood nothing")
     said = ", then ".join(phrase(form) for form in heard)
     came = f". That came to: {_orders(last.commands)}" if last is not None and last.forms == heard else ""
     return Report(f"I understood: {said}{came}")

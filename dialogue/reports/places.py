@@ -23,10 +23,13 @@ def where(asked: Asked) -> Report:
     if isinstance(meant, Grounded) and isinstance(meant.one, Point):
         return Report(capital(_away("that", meant.one, asked.world.robot)))
     things = asked.things(target)
-    told = [
-        _away(name, thing.point, asked.world.robot) for name, thing in zip(asked.names(things), things, strict=True)
-    ]
-    return Report(capital("; ".join(told)), things)
+    return Report(capital(away(asked, things)), things)
+
+
+def away(asked: Asked, things: tuple[Entity, ...]) -> str:
+    """How far and which way each of these is."""
+    robot = asked.world.robot
+    return "; ".join(_away(name, thing.point, robot) for name, thing in zip(asked.names(things), things, strict=True))
 
 
 def _away(name: str, place: Point, robot: Pose) -> str:

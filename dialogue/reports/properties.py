@@ -9,8 +9,8 @@ from grammar.forms import Form, Term
 from grounding import Entity
 from grounding.descriptions import DETERMINERS
 
-from .asked import THING, Asked, Report, capital, uncapital
-from .places import where
+from .asked import THING, Asked, Report, capital
+from .places import away
 
 _COLOURS = frozenset(
     {"red", "green", "blue", "yellow", "orange", "purple", "pink", "brown", "black", "white", "gray", "beige", "cyan"}
@@ -85,7 +85,7 @@ def is_(asked: Asked) -> Report:
 def _as_it_is(asked: Asked, said: Form, things: tuple[Entity, ...]) -> str:
     """What is so instead of what was asked."""
     if isinstance(said, Term) and said.pred in asked.lexicon.relations:
-        return uncapital(where(Asked((asked.args[0],), asked.session, asked.lexicon)).text)
+        return away(asked, things)
     return f"{'that is' if len(things) == 1 else 'those are'} {listed(asked.names(things), 'and')}"
 
 

@@ -227,7 +227,7 @@ def gestures(kirby: Rehearsal) -> None:
 def learned_gesture(kirby: Rehearsal) -> None:
     """An L shape for "go forward 1m, turn right, then go forward 2m"."""
     kirby.say("go to 0.45 0")
-    kirby.say('learn "the L shape": go forward 1m, turn right, then go forward 2m')
+    kirby.say("learn the L shape: go forward 1m, turn right, then go forward 2m")
     kirby.gesture("L shape")
     kirby.is_at(1.45, -2.0, -90.0)
 
