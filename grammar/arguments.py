@@ -44,6 +44,25 @@ class Kind(Enum):
     MEASURE = "measure"  # an amount with what it measures: a radius of two metres
 
 
+_SAID = {
+    Kind.AXIS: "forward or back",
+    Kind.SIDE: "left or right",
+    Kind.HEADING: "a compass heading",
+    Kind.QUANTITY: "an amount",
+    Kind.NUMBER: "a number",
+    Kind.VAGUE: "an amount",
+    Kind.PATH: "a way to go",
+    Kind.PLACE: "here or there",
+    Kind.LOCATION: "a place",
+    Kind.FACING: "what to face",
+    Kind.OF: "of what",
+    Kind.WAY: "which way",
+    Kind.PHRASE: "a thing or place",
+    Kind.MEASURE: "a measure",
+    Kind.EVENT: "something to do",
+}
+
+
 @dataclass(frozen=True, slots=True)
 class Arg:
     """One argument as it was said: a form, or the readings of an event noun ("a picture")."""
@@ -146,7 +165,7 @@ class ArgumentFitter:
             ):  # "a little to the left, ten degrees"
                 bound[slot.variable] = value if isinstance(value, Quantity) else bound[slot.variable]
                 return
-        raise Refused(f"no {arg.kind.value} with '{entry.lex.pred.replace('_', ' ')}'")
+        raise Refused(f"'{entry.lex.pred.replace('_', ' ')}' without {_SAID[arg.kind]}")
 
     def _value(self, slot: Argument, arg: Arg) -> Form | None:
         """What the argument is in this place, or None where it does not fit."""

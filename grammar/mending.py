@@ -18,6 +18,7 @@ Reading = tuple[DialogueAct, ...] | NotUnderstood
 
 MENDED_MAX_CHARS = 200
 _STOP = Term("stop")
+_REQUESTS = frozenset({Function.INSTRUCT, Function.QUESTION})
 
 
 class Mender:
@@ -27,7 +28,7 @@ class Mender:
         self._read = reader.read
         self._guesser = Guesser(lexicon, reader)
         self._speller = Speller(lexicon)
-        self._nearest = Nearest(lexicon)
+        self._nearest = Nearest(lexicon, self._is_one_request)
         self._stopping = Stopping(lexicon)
 
     def mend(self, text: str, failure: NotUnderstood, proposer: Proposer | None = None) -> Reading:
@@ -42,4 +43,8 @@ class Mender:
             if isinstance(reading, tuple):
                 return tuple(replace(act, span=(0, len(text)), repaired=proposal) for act in reading)
         guessed = None if proposer is None else self._guesser.guess(text, proposer)
-        return guessed or replace(failure, nearest=self._nearest(text))
+        return guessed or replace(failure, nearest=self._nearest(text, failure.span))
+
+    def _is_one_request(self, text: str) -> bool:
+        reading = self._read(text)
+        return isinstance(reading, tuple) and len(reading) == 1 and reading[0].function in _REQUESTS

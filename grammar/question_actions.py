@@ -64,6 +64,7 @@ CONDITION_ACTIONS: dict[str, Action] = {
     "seeing": lambda who, see, what: Term(pred_of(see), (what,)),
     "existing": lambda there, what: Term("exists", (what,)),
     "being": lambda what, be, place: Term("is", (what, place)),
+    "within": lambda you, be, distance, relation, what: Term("within", (distance, what)),
     "you_being": lambda you, be, place: Term("is", (YOU, place)),
     "done_verb": _done_verb,
 }

@@ -51,7 +51,7 @@ class Search:
         if self._depth >= CLAUSES_MAX:
             return None
         self._depth += 1
-        trace = Trace(steps=self._steps)
+        trace = Trace(furthest=start, steps=self._steps)
         found = None
         for count, ((function, form), end) in enumerate(
             self._machine.readings(start, self._lattice.edges, self._lattice.may_end, trace)

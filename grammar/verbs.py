@@ -42,6 +42,8 @@ class VerbActions:
             return self._fitter.program(readings, rest)
         if not rest or (len(rest) == 1 and _is_small(rest[0])):
             raise Refused("what to do")
+        if (opening := _opening(rest)) is not None:
+            return Term("go", (Term("through", (opening,)),))
         return self._fitter.program(self._readings(*(pred_of(arg) for arg in readings.args)), rest)
 
     def verb_led(self, lead: Form, readings: Any, args: Args = ()) -> Form:
@@ -146,6 +148,14 @@ class VerbActions:
 
     def _readings(self, *preds: str) -> tuple[Reading, ...]:
         return tuple(Reading(self._lexicon.programs[pred]) for pred in preds)
+
+
+def _opening(args: Args) -> Form | None:
+    """The opening that "(take) the second right" means."""
+    match args:
+        case (Arg(Kind.PHRASE, Term("the", (Term(ordering, (Term("one"), Term("on", (side,)))),))),):
+            return Term("the", (Term(ordering, (Term("opening"), Term("on", (side,)))),))
+    return None
 
 
 def _may_be_object(args: Args) -> bool:
