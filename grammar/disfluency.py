@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 from voxml.vocabulary import Lexicon
 
+from .abandoned import Abandoned
 from .amounts import AmountReader
 from .editing import EditingTerms
 from .fragments import Fragments
@@ -17,7 +18,7 @@ from .hesitations import Hesitations
 from .known_words import KnownWords
 from .repairs import Repairs
 from .replaced_amounts import without_replaced_amounts
-from .restarts import Restarts
+from .restarts import Break, Restarts
 from .tokens import Token
 
 
@@ -30,24 +31,31 @@ class Fluency:
         self._hesitations = Hesitations(lexicon.closed, self._words)
         self._fragments = Fragments(lexicon.closed, self._words)
         self._restarts = Restarts(self._words, terms)
+        self._abandoned = Abandoned(self._words)
         self._repairs = Repairs(self._words, terms)
         self._fluent = self._never_disfluent(terms)
 
     def _never_disfluent(self, terms: EditingTerms) -> frozenset[str]:
         """Words that, each said once, need no mending."""
         vocabulary = self._words.vocabulary
-        numbers = {word for word in vocabulary if self._words.is_number(word)}
-        begun = {word for word in numbers for other in numbers if other != word and other.startswith(word)}
-        doubtful = terms.last_words | self._hesitations.last_words | begun
+        doubtful = terms.last_words | self._hesitations.last_words
         return frozenset(word for word in vocabulary - doubtful if len(word) > 1 or word == "a")
+
+    def _is_fluent(self, texts: Sequence[str]) -> bool:
+        """Whether nothing can be amiss: only known words, none of them twice, and none that begins like the next."""
+        if not self._fluent.issuperset(texts) or len(set(texts)) < len(texts):
+            return False
+        return not any(map(str.startswith, texts[1:], texts))
 
     def clean(self, tokens: Sequence[Token]) -> tuple[tuple[Token, ...], bool]:
         """The tokens as they were meant, and whether they begin by taking something back ("no, I mean ...")."""
         texts = [token.text for token in tokens]
-        if self._fluent.issuperset(texts) and len(set(texts)) == len(texts):
+        if self._is_fluent(texts):
             return tuple(tokens), False
-        kept, halted = self._hesitations.without(tokens)
-        kept = self._restarts.without(self._fragments.without(kept), halted)
+        kept, after_pauses = self._hesitations.without(tokens)
+        kept, after_fragments = self._fragments.without(kept)
+        breaks = dict.fromkeys(after_pauses, Break.PAUSE) | dict.fromkeys(after_fragments, Break.FRAGMENT)
+        kept = self._abandoned.without(self._restarts.without(kept, breaks))
         kept, corrects = self._repairs.applied(kept)
         kept = [token for token in kept if token.text not in self._hesitations.editing]
         return tuple(without_replaced_amounts(kept, self._words.amounts)), corrects

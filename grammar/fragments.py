@@ -24,22 +24,27 @@ class Fragments:
         self._spoken_units = tuple(sorted(unit for unit in closed.table("unit") if len(unit) > _CLIPPED_MIN))
         self._editing = frozenset(closed.table("edit_weak"))
 
-    def without(self, tokens: Sequence[Token]) -> list[Token]:
-        """The tokens without fragments, and with units in full."""
+    def without(self, tokens: Sequence[Token]) -> tuple[list[Token], frozenset[int]]:
+        """The tokens without fragments and with units in full, and the offsets (in characters) of those that follow a
+        fragment which they do not say in full.
+        """
         spoken = [token.text for token in tokens]
         lowered = any(token.written.islower() for token in tokens)
         kept: list[Token] = []
         texts: list[str] = []
+        after_fragments: set[int] = set()
         for at, token in enumerate(tokens):
             following = [word for word in spoken[at + 1 : at + 1 + _FOLLOWING_MAX] if word not in self._editing]
-            letter = lowered and at > 0 and token.written.isupper()  # "the L shape"
-            if not letter and token.text not in self._editing and self._is_broken_off(token.text, texts, following):
+            is_letter = lowered and at > 0 and token.written.isupper()  # "the L shape"
+            if not is_letter and token.text not in self._editing and self._is_broken_off(token.text, texts, following):
+                if following and not following[0].startswith(token.text.rstrip("-")):
+                    after_fragments.add(tokens[at + 1].start)
                 continue
             whole = self._whole(token.text, following)
             if whole is not None:
                 kept.append(token if whole == token.text else replace(token, text=whole))
                 texts.append(whole)
-        return kept
+        return kept, frozenset(after_fragments)
 
     def without_beginnings(self, tokens: Sequence[Token]) -> list[Token]:
         """The tokens without the words, known or not, with which the next begins: "for forward", "yo your"."""
@@ -57,6 +62,8 @@ class Fragments:
             return True
         after = following[0] if following else ""
         counted = bool(before) and self._words.is_number(before[-1])
+        if _is_beginning(word, after) and self._parts_amount(word, counted, following):
+            return True
         if len(word) == 1 and word.isalpha():
             return self._is_lone_letter(word, counted and not before[-1].isalpha(), counted, following)
         if _is_beginning(word, after) and self._is_said_in_full(word, after, counted):
@@ -84,6 +91,13 @@ class Fragments:
         if self._words.is_number(word) and self._words.is_number(after):
             return True  # "nine ninety", and "six sixteen" too
         return self._words.mean_the_same(word, after)
+
+    def _parts_amount(self, word: str, counted: bool, following: Sequence[str]) -> bool:
+        """Whether a word can only be the beginning of the amount behind it, or of its "and": "on one foot"."""
+        amounts = self._words.amounts
+        if counted and amounts.may_start(word):
+            return not amounts.may_start(following[0]) and amounts.may_belong(following[0])
+        return not amounts.may_start(word) and amounts.amount(following, 0) is not None
 
     def _is_dropped(self, word: str, before: Sequence[str], following: Sequence[str]) -> bool:
         """Whether an unknown word was given up for what follows."""

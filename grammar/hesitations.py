@@ -29,17 +29,16 @@ class Hesitations:
         self.last_words = words.fillers | self._discourse.last_words
 
     def without(self, tokens: Sequence[Token]) -> tuple[list[Token], frozenset[int]]:
-        """The tokens without filled pauses, and where (in characters) what follows one begins."""
+        """The tokens without filled pauses, and the offsets (in characters) of those that follow one."""
         texts = [token.text for token in tokens]
         kept: list[Token] = []
-        halted: set[int] = set()
+        after_pauses: set[int] = set()
         for at, token in enumerate(tokens):
-            if self._is_filled_pause(texts, at):
-                if at + 1 < len(tokens):
-                    halted.add(tokens[at + 1].start)
-                continue
-            kept.append(self._as_known(token))
-        return self._amounts_closed(kept), frozenset(halted)
+            if not self._is_filled_pause(texts, at):
+                kept.append(self._as_known(token))
+            elif at + 1 < len(tokens):
+                after_pauses.add(tokens[at + 1].start)
+        return self._amounts_closed(kept), frozenset(after_pauses)
 
     def is_filled_pause(self, word: str) -> bool:
         """ "uh", "errr", "hmm"; not "mm", which are millimetres where a number of them is written."""
@@ -57,10 +56,12 @@ class Hesitations:
 
     def _may_repair(self, texts: Sequence[str], at: int) -> bool:
         """Whether "er" may be an editing term, as in "left er right"; "back er up" is one verb, and numbers add up."""
-        after = next((text for text in texts[at + 1 :] if text not in MARKS), "")
-        if not at or not after or self._words.is_number(after):
+        before = [text for text in texts[:at] if text not in MARKS]
+        after = [text for text in texts[at + 1 :] if text not in MARKS]
+        if not before or not after or self._words.is_phrase((before[-1], after[0]), "VERB"):
             return False
-        return not self._words.is_phrase((texts[at - 1], after), "VERB")
+        kind = self._words.kind(after, 0)
+        return kind not in (None, "number") and kind == self._words.kind(before, len(before) - 1)
 
     def _as_known(self, token: Token) -> Token:
         """A word that was drawn out, as it is known: "sssstop", "leeeft"."""
@@ -77,16 +78,20 @@ class Hesitations:
         texts = [token.text for token in tokens]
         at = 1 if not self._interrupting.isdisjoint(texts) else len(texts)
         while at < len(tokens) - 1:
-            length = self._discourse.length(texts, at) or self._comma_before_unit(texts, at)
-            if length and self._interrupts_amount(texts, at, at + length):
-                del tokens[at : at + length], texts[at : at + length]
+            end = self._past_discourse(texts, at)
+            if at < end < len(texts) and self._interrupts_amount(texts, at, end):
+                del tokens[at:end], texts[at:end]
             else:
                 at += 1
         return tokens
 
-    def _comma_before_unit(self, texts: Sequence[str], at: int) -> int:
-        """One at the comma of "two, meters"."""
-        return int(texts[at] in _COMMAS and self._words.is_unit(texts[at + 1]))
+    def _past_discourse(self, texts: Sequence[str], at: int) -> int:
+        """Behind all that only keeps the turn from ``at`` on, and behind the comma of "two, meters"."""
+        if texts[at] in _COMMAS and self._words.is_unit(texts[at + 1]):
+            return at + 1
+        while length := self._discourse.length(texts, at):
+            at += length
+        return at
 
     def _interrupts_amount(self, texts: Sequence[str], start: int, end: int) -> bool:
         """Whether the number before ``start`` goes on at ``end``, or its unit stands there."""

@@ -65,6 +65,10 @@ class KnownWords:
         """Whether the word is "not"."""
         return word in self._not
 
+    def is_idle(self, word: str) -> bool:
+        """Whether the word adds nothing to what is asked for: "okay", "please"."""
+        return word in self._idle
+
     def is_to_do(self, texts: Sequence[str]) -> bool:
         """Whether the words say what to do, or how much, or which way, or nothing at all: "okay", but not "it's a"."""
         if all(text in self._idle for text in texts):
@@ -140,8 +144,8 @@ class KnownWords:
         """Whether a clause may begin with the phrase, as none does with the "turn" of "a right turn"."""
         if not self.kinds(texts, at) & _VERB:
             return False
-        if at and self.is_number(texts[at - 1]) and self.amounts.may_belong(texts[at]):
-            return False  # "one point five"
+        if at and self.is_number(texts[at - 1]) and (self.amounts.may_belong(texts[at]) or self.is_unit(texts[at])):
+            return False  # "one point five", "four steps"
         while at and self.kind(texts, at - 1) in ("thing", "direction", "number", "unit"):
             at -= 1
             if self.is_open(texts[at]):

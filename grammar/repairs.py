@@ -94,10 +94,11 @@ class Repairs:
         return self._words.kind(texts, at) == "direction" and "VERB" in self._words.kinds(texts, at)
 
     def _counterpart(self, before: Sequence[str], kind: str | None) -> int | None:
-        """Where in ``before`` the nearest words of a kind stand."""
+        """Where in the last clause of ``before`` the nearest words of a kind stand."""
         if kind is None:
             return None
-        alike = [self._words.kind(before, at) == kind for at in range(len(before))]
+        first = self._words.clause_starts(before)[-1]
+        alike = [at >= first and self._words.kind(before, at) == kind for at in range(len(before))]
         last = next((at for at in range(len(before) - 1, -1, -1) if alike[at]), None)
         while last and alike[last - 1]:
             last -= 1

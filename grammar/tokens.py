@@ -39,11 +39,16 @@ class Tokenizer:
     def __call__(self, text: str) -> list[Token]:
         """The words and marks of an utterance in order; pauses ("...") are none."""
         tokens: list[Token] = []
-        for match in _TOKEN.finditer(text.lower().translate(_QUOTES)):
+        spoken = text.lower().translate(_QUOTES)
+        for match in _TOKEN.finditer(spoken):
             word, start, end = match[0], match.start(), match.end()
             if word in _PAUSES or (len(word) > 1 and not word.strip(".")):
                 continue
             written = text[start:end]
             word = "minus" if word == "-" else _FRACTIONS.get(word, word)
-            tokens.extend(Token(part, start, end, written) for part in self._contractions.get(word, (word,)))
+            parts = self._contractions.get(word)
+            if parts is None or ("'" not in word and spoken.startswith(word, end + 1)):  # "im image" is cut off
+                tokens.append(Token(word, start, end, written))
+            else:
+                tokens.extend(Token(part, start, end, written) for part in parts)
         return tokens
