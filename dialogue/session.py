@@ -140,7 +140,7 @@ class Session:
 
     @property
     def pending(self) -> tuple[Task, ...]:
-        """The movements that are still to be done: not ended, nor dropped, by id or with all others, by what came after.
+        """The movements still to be done: not ended, nor dropped, by id or with all others, by what was sent since.
 
         What a plain ``cancel`` drops is known when the robot says so.
         """
