@@ -212,7 +212,7 @@ class ArgumentFitter:
             return None
         if "path" in slot.types:
             return Term("to", (form,))
-        return form if {"place", "location", "physobj"} & set(slot.types) else None
+        return form if {"place", "location"} & set(slot.types) else None
 
     def _is_of_type(self, form: Form, types: tuple[str, ...]) -> bool:
         """Whether a phrase may stand where one of these types is wanted; what has no noun of its own fits all."""

@@ -85,13 +85,13 @@ class Search:
 
     def _lends_condition(self, clause: Clause, following: Clause) -> bool:
         """Whether a condition at the end is rather that of the next clause: "go on, when you get there turn around"."""
-        if not isinstance(clause.form, Term) or clause.form.pred not in ("if", "when"):
+        if not isinstance(clause.form, Term) or clause.form.pred not in ("if", "when", "seq"):
             return False
         marker = next((at for at in range(clause.end - 1, clause.start, -1) if self._is_condition(at)), clause.start)
         return marker > clause.start and (following.start == clause.end or self._lattice.texts[marker - 1] in MARKS)
 
     def _is_condition(self, at: int) -> bool:
-        return "IF" in self._lattice.categories(at)
+        return not self._lattice.categories(at).isdisjoint(("IF", "AFTER"))
 
     def _past_connectives(self, at: int) -> tuple[int, bool]:
         """Past marks, "and", "then", "but"; and whether "before that" was among them."""

@@ -1,4 +1,4 @@
-"""What Kirby does not understand: where it went wrong, what could have stood there, and the nearest that is understood."""
+"""What Kirby does not understand: where it went wrong, what could have stood there, and what is nearest."""
 
 from __future__ import annotations
 
