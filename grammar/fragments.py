@@ -90,6 +90,8 @@ class Fragments:
             return True
         if self._words.is_number(word) and self._words.is_number(after):
             return True  # "nine ninety", and "six sixteen" too
+        if self._words.is_article(after) or self._words.are_nouns(word, after):
+            return True  # "you your", "door doorway"
         return self._words.mean_the_same(word, after)
 
     def _parts_amount(self, word: str, counted: bool, following: Sequence[str]) -> bool:

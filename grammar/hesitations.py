@@ -60,8 +60,9 @@ class Hesitations:
         after = [text for text in texts[at + 1 :] if text not in MARKS]
         if not before or not after or self._words.is_phrase((before[-1], after[0]), "VERB"):
             return False
-        kind = self._words.kind(after, 0)
-        return kind not in (None, "number") and kind == self._words.kind(before, len(before) - 1)
+        if self._words.is_number(after[0]):
+            return False
+        return not self._words.kinds(before, len(before) - 1).isdisjoint(self._words.kinds(after, 0))
 
     def _as_known(self, token: Token) -> Token:
         """A word that was drawn out, as it is known: "sssstop", "leeeft"."""

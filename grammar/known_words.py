@@ -39,7 +39,8 @@ class KnownWords:
         self._joining = frozenset(closed.table("AND")) | frozenset(closed.table("THEN"))
         self._not = frozenset(closed.table("NOT"))
         self._idle = frozenset(closed.table("skip")) | frozenset(closed.table("reply")) | MARKS
-        self._open = frozenset(closed.table("article")) | frozenset(closed.table("open"))
+        self._articles = frozenset(closed.table("article"))
+        self._open = self._articles | closed.table("open").keys()
 
     def is_word(self, word: str) -> bool:
         return word in self.vocabulary or word in MARKS or word[0].isdigit() or self.amounts.may_start(word)
@@ -56,6 +57,9 @@ class KnownWords:
 
     def is_unit(self, word: str) -> bool:
         return self.amounts.is_unit(word)
+
+    def is_article(self, word: str) -> bool:
+        return word in self._articles
 
     def is_open(self, word: str) -> bool:
         """Whether a phrase cannot end with the word: "to", "the", "your"."""
@@ -90,6 +94,9 @@ class KnownWords:
             return self.amounts.unit_of(first) == self.amounts.unit_of(second)
         meant = [(sense.category, sense.value) for sense in self._lexicon.lookup(first)]
         return any((sense.category, sense.value) in meant for sense in self._lexicon.lookup(second))
+
+    def are_nouns(self, *words: str) -> bool:
+        return all(any(sense.category == "NOUN" for sense in self._lexicon.lookup(word)) for word in words)
 
     def differ(self, first: str, second: str) -> bool:
         """Whether two words of one category stand for different things: "north" and "northwest"."""

@@ -79,9 +79,10 @@ class Restarts:
 
     def _restart(self, texts: Sequence[str], at: int, resume: int, broken: Break) -> Again | None:
         """The longest words before ``at`` that are said again from ``resume`` on and were given up."""
-        for start in range(max(0, at - REPARANDUM_MAX, at - (len(texts) - resume)), at):
+        earliest = max(0, at - REPARANDUM_MAX, at - (len(texts) - resume))
+        for start in (start for start in range(earliest, at) if texts[start] == texts[resume]):
             again = Again(start, at, resume, broken)
-            if texts[start] == texts[resume] and self._is_begun(texts, again) and self._is_given_up(texts, again):
+            if self._is_begun(texts, again) and self._is_given_up(texts, again):
                 return again
         return None
 
