@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from grammar.forms import Form, Term
+from grammar.forms import Form, Quantity, Term
 from grounding import Ambiguous, Entity, Grounded, Heading, Unresolved, World, resolve
 from grounding.descriptions import INDEFINITE
-from grounding.places import free_way_m
+from grounding.places import wall_ahead_m
 from robot.geometry import Point, wrap_angle
 from voxml.vocabulary import Lexicon
 
@@ -38,6 +38,8 @@ def holds(condition: Term, world: World, lexicon: Lexicon, known: tuple[str, ...
             return _is_seen(seen, world, lexicon, ())
         case Term("face", (target,)):
             return _is_faced(target, world, lexicon)
+        case Term("within", (Quantity(value=near_m), target)):
+            return _is_near(target, near_m, world, lexicon)
         case Term(pred, (Term("you"), target) | (target,)) if pred in _NEAR_M:
             return _is_near(target, _NEAR_M[pred], world, lexicon)
         case _:
@@ -70,7 +72,8 @@ def _is_faced(form: Form, world: World, lexicon: Lexicon) -> bool:
 
 def _is_near(form: Form, near_m: float, world: World, lexicon: Lexicon) -> bool:
     if form == Term("the", (Term("wall"),)):
-        return free_way_m(world.robot, world.walls) <= near_m
+        ahead_m = wall_ahead_m(world.robot, world.walls)
+        return ahead_m is not None and ahead_m <= near_m
     match resolve(form, world, lexicon):
         case Grounded(referents):
             candidates = referents

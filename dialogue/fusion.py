@@ -44,8 +44,8 @@ def _with_spread(target: Term, spread: float, unit: Unit) -> Term:
 
 
 def recent(pointings: tuple[Pointing, ...], time_s: float) -> tuple[Pointing, ...]:
-    """Those that are not too old to belong to what is said at ``time_s``."""
-    return tuple(p for p in pointings if time_s - p.time_s <= WINDOW_S)[-REMEMBERED:]
+    """Those that are near enough in time to belong to what is said at ``time_s``."""
+    return tuple(p for p in pointings if abs(time_s - p.time_s) <= WINDOW_S)[-REMEMBERED:]
 
 
 def demonstratives(form: Form) -> int:

@@ -12,12 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from dialogue.events import (
+        CameraMove,
         Dispatch,
         Event,
         Gesture,
         GestureKind,
         Highlight,
         MoveCamera,
+        Naming,
         Output,
         PointedObject,
         PointedPlace,
@@ -33,7 +35,18 @@ if TYPE_CHECKING:
     from grammar import Proposer
     from grounding import Entities, Entity, StandsFor, World
     from robot.geometry import Point, Pose, Segment
-    from robot.messages import Command, Feedback, FeedbackCode, decode_command, encode_command, feedback
+    from robot.messages import (
+        Command,
+        Feedback,
+        FeedbackCode,
+        Fiducial,
+        Fiducials,
+        Map,
+        Odom,
+        decode_command,
+        encode_command,
+        feedback,
+    )
     from voxml.errors import KirbyError
     from voxml.scene import Scene, load_scene
     from voxml.vocabulary import Lexicon, load_lexicon
@@ -43,6 +56,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Agent",
+    "CameraMove",
     "Command",
     "Dispatch",
     "Entities",
@@ -50,13 +64,18 @@ __all__ = [
     "Event",
     "Feedback",
     "FeedbackCode",
+    "Fiducial",
+    "Fiducials",
     "Gesture",
     "GestureKind",
     "Highlight",
     "KirbyError",
     "LanguageModel",
     "Lexicon",
+    "Map",
     "MoveCamera",
+    "Naming",
+    "Odom",
     "Output",
     "Point",
     "PointedObject",

@@ -43,9 +43,14 @@ from voxml.vocabulary import Lexicon, load_lexicon
 
 
 class RobotPort(Protocol):
-    """What a host's robot must offer: take commands, with the ids under which their feedback is to come back."""
+    """What a host's robot must offer. What comes of its commands goes back through `Agent.feedback`."""
 
-    def send(self, commands: tuple[Command, ...], ids: tuple[str, ...]) -> None: ...
+    def send(self, commands: tuple[Command, ...], ids: tuple[str, ...]) -> None:
+        """Take commands, in this order. Each has an id, of as many; its feedback is to bear it.
+
+        Called before `Agent.handle` returns, so it must not wait for the robot. ``STOP`` acts at once, whatever else
+        waits. What it raises goes to the host, with the conversation as if it had been sent.
+        """
 
 
 def understand(
@@ -64,10 +69,11 @@ def understand(
 
 
 class Agent:
-    """One conversation about one robot.
+    """One conversation about one robot. Not for several threads at once: give each event to it in turn.
 
     ``world`` says what each fiducial stands for (a scene: nothing is seen yet), or gives the whole world model.
-    ``clock`` is read only where a call gives no ``time_s``. ``name`` begins every command's id: give each conversation
+    ``clock``, in seconds, is read only where a call gives no ``time_s``; a conversation that is to outlive the process
+    wants one that does, such as `time.time`. ``name`` begins every command's id: give each conversation
     its own where several reach one robot. ``proposer``, such as a `LanguageModel`, guesses what is meant where the
     grammar has no reading; a guess is asked about first. Every method that takes something in returns the outputs.
     """
