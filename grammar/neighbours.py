@@ -12,6 +12,7 @@ from .tokens import MARKS
 _WITHOUT_OF = frozenset({"AXIS", "SIDE", "HEADING", "WHAT_ASK"})
 _QUALITIES = frozenset({"ADJECTIVE", "ORDINAL", "SIDE_ADJ"})
 _NAMES_OF_THINGS = frozenset({"NOUN", "NOUNS"})
+_REFUSALS = frozenset({"NO", "NO_NO"})
 _COMPARED = frozenset({"ADJECTIVE", "ORDINAL"})
 _COUNTS = frozenset({"NUMBER", "CARDINAL", "QTY"})
 _PASSED_OVER = Edge(None, None, 1)
@@ -24,7 +25,7 @@ class Neighbours:
         closed = lexicon.closed
         self._copulas = frozenset(closed.table("BE"))
         self._negations = frozenset(closed.table("negation"))
-        self._refusing = frozenset(word.words[0] for word in closed.words_of("NO"))
+        self._refusing = frozenset(word.words[0] for name in _REFUSALS for word in closed.words_of(name))
         self._of = frozenset(closed.table("OF"))
         self._addresses = frozenset(closed.table("address"))
         self._refusals = frozenset(closed.table("NO"))
@@ -78,7 +79,7 @@ class Neighbours:
     def _forbids(self, edge: Edge, texts: Sequence[str], at: int) -> bool:
         """Whether a "no, do not" goes on with what not to do: that is no answer."""
         end = at + edge.length
-        return edge.terminal == "NO" and texts[end - 1] in self._negations and not _ends(texts, end)
+        return edge.terminal in _REFUSALS and texts[end - 1] in self._negations and not _ends(texts, end)
 
     def _opening(self, found: tuple[Edge, ...], texts: Sequence[str], at: int) -> tuple[Edge, ...]:
         """At the beginning: "no" is an answer, "robot" is spoken to, "first" counts, "right" opens."""
