@@ -53,7 +53,7 @@ def _conditional(marker: Form, condition: Form, core: Form, *otherwise: Form) ->
 def _until(condition: Form, core: Form) -> Form:
     """ "go forward until you see a door"; to turn until one faces something is to face it."""
     match condition, core:
-        case Term("is", (Term("you"), Term("facing", (place,)))), Term("turn", ()):
+        case Term("is", (Term("you"), Term("facing", (place,)))) | Term("face", (place,)), Term("turn", ()):
             return Term("face", (place,))
     return Term("until", (condition, core))
 

@@ -17,6 +17,7 @@ _UNIT_TYPES = {Unit.METRE: "length", Unit.DEGREE: "angle", Unit.SECOND: "duratio
 _TYPE_UNITS = {name: unit for unit, name in _UNIT_TYPES.items()}
 _QUANTITIES = frozenset(_TYPE_UNITS)
 _THINGS = frozenset({"physobj", "location", "human", "artifact", "any"})
+_FORWARD = Term("forward")
 _VAGUE = (Term("little"), Term("max"))
 _ON_THE_WAY = frozenset({"via", "through"})
 BARE_DEGREES_MIN = 5  # nobody means degrees by "turn left two"
@@ -160,6 +161,9 @@ class ArgumentFitter:
                 return
             if bound[slot.variable] == value:
                 return  # "turn left ninety degrees to the left"
+            if bound[slot.variable] == _FORWARD and arg.kind is Kind.HEADING:  # "forward, north"
+                bound[slot.variable] = value
+                return
             if arg.kind in (Kind.VAGUE, Kind.QUANTITY) and isinstance(value, Quantity) != isinstance(
                 bound[slot.variable], Quantity
             ):  # "a little to the left, ten degrees"

@@ -12,6 +12,7 @@ from .ellipsis import Completer
 
 _SOCIAL = frozenset({Function.ACKNOWLEDGE, Function.GREET, Function.THANK, Function.BYE, Function.CONFIRM})
 _STOP = Term("stop")
+_GO = Term("go")
 _AGAIN = Term("again")
 
 
@@ -38,7 +39,7 @@ class Composer:
 
     def composed(self, clauses: Clauses, corrects: bool) -> Clauses:
         """The acts in the order in which they are to be done; ``corrects``: the utterance takes something back."""
-        clauses = _taught(self._completed(_repeated(clauses)))
+        clauses = _taught(self._completed(_repeated(_without_setting_out(clauses))))
         clauses = self._called_off(_ordered(clauses))
         return self._corrected(_without_pleasantries(clauses), corrects)
 
@@ -64,6 +65,15 @@ class Composer:
         first, *others = clauses
         takes_back = first.function in (Function.INSTRUCT, Function.FRAGMENT) and not self.is_control(first.form)
         return (replace(first, function=Function.CORRECT), *others) if corrects and takes_back else clauses
+
+
+def _without_setting_out(clauses: Clauses) -> Clauses:
+    """ "go stand by the door": to go is part of what is then to be done."""
+    return tuple(
+        clause
+        for clause, following in zip(clauses, (*clauses[1:], None), strict=True)
+        if clause.form != _GO or following is None or following.start > clause.end
+    )
 
 
 def _repeated(clauses: Clauses) -> Clauses:

@@ -38,7 +38,7 @@ def _turning(place: Form, headings: frozenset[Form]) -> Form | None:
             return Term("turn", (side,))
         case Term("to" | "facing", (Term() as heading,)) if heading in headings:
             return Term("face", (heading,))
-        case Term("the" | "a", (core, *modifiers)) if _scene(place):
+        case Term("the" | "a" | "your", (core, *modifiers)) if _scene(place):
             found = (_turning(each, headings) for each in (*_side_of(core), *modifiers))
             return next((turning for turning in found if turning is not None), None)
     return Term("turn_around") if place == _BEHIND else None

@@ -89,6 +89,7 @@ ARGUMENT_ACTIONS: dict[str, Action] = {
     "facing": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),
     "facing_heading": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),
     "of": lambda of, what: Arg(Kind.OF, Term("of", (what,))),
+    "of_side": lambda of, side: Arg(Kind.OF, Term("of", (phrases.on_side(side),))),
     "of_quantity": lambda of, amount: Arg(Kind.QUANTITY, amount),
     "of_view": lambda of, view, *place: Arg(Kind.OF, Term("of", (view,))),
     "of_what": lambda of, what, be, args: of_place(args),

@@ -39,6 +39,7 @@ class Reader:
         self._tokenizer = Tokenizer(lexicon.closed)
         self._fluency = Fluency(lexicon, amounts)
         self._composer = Composer(Completer(lexicon), self._is_control)
+        self._instead = frozenset(lexicon.closed.table("instead"))
         self._leading = frozenset(
             word.value for name in _LEADING for word in lexicon.closed.words_of(name) if word.value is not None
         )
@@ -52,7 +53,8 @@ class Reader:
             search = Search(self.lattice(tokens), machine, self._leading)
             clauses = search.clauses()
             if clauses:
-                return _acts(self._composer.composed(clauses, corrects), tokens)
+                instead = any(token.text in self._instead for token in tokens)
+                return _acts(self._composer.composed(clauses, corrects or instead), tokens)
             failure = failure or self._not_understood(text, tokens, search.trace)
         assert failure is not None
         return failure

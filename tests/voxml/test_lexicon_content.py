@@ -130,10 +130,10 @@ def test_primitives_of_a_closed_set_are_given_one_of_it(entry: ProgramEntry) -> 
 
 
 @pytest.mark.parametrize("entry", programs(), ids=ids)
-def test_markers_are_relations_or_measures(lexicon: Lexicon, entry: ProgramEntry) -> None:
+def test_markers_are_known(lexicon: Lexicon, entry: ProgramEntry) -> None:
     for arg in entry.args:
-        measures = {word.text for word in lexicon.closed.words_of("MEASURE")}
-        assert set(arg.markers) <= lexicon.relations.keys() | measures
+        closed = {word.text for name in ("MEASURE", "FACING") for word in lexicon.closed.words_of(name)}
+        assert set(arg.markers) <= lexicon.relations.keys() | closed
         assert arg.bare or arg.markers or "place" in arg.types  # a place says its relation by itself
 
 
