@@ -141,7 +141,7 @@ class AmountReader:
         return 1.0, start
 
     def _number(self, tokens: Sequence[str], at: int) -> Read | None:
-        found = self._angle_spelt(tokens, at) or self.numbers.number(tokens, at)
+        found = self._spelt(tokens, at) or self.numbers.number(tokens, at)
         if found is None:
             return self._one_more(tokens, at) or self._article(tokens, at)
         value, end = found
@@ -153,11 +153,15 @@ class AmountReader:
             value, end = _replaced(value, second[0]), second[1]
         return value, self._past_of(tokens, end)
 
-    def _angle_spelt(self, tokens: Sequence[str], at: int) -> Read | None:
-        """ "four five degrees" is forty five; of feet the second number rather replaces the first."""
+    def _spelt(self, tokens: Sequence[str], at: int) -> Read | None:
+        """ "four five degrees" is forty five, "one zero feet" ten; of "one two feet" the second rather replaces the
+        first.
+        """
         found = self.numbers.spelt(tokens, at)
         unit = None if found is None else self._unit(tokens, found[1])
-        return found if unit is not None and unit[0].unit is Unit.DEGREE else None
+        if found is None or unit is None:
+            return None
+        return found if unit[0].unit is Unit.DEGREE or "0" in f"{found[0]:.0f}" else None
 
     def _one_more(self, tokens: Sequence[str], at: int) -> Read | None:
         """ "another meter"."""

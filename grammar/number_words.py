@@ -30,7 +30,9 @@ class NumberWords:
         return frozenset(valued | self.articles | self.point | self.minus)
 
     def digit(self, token: str) -> str:
-        """The digit that a word is by itself: "4" for "four"; nothing for any other."""
+        """The digit that a word is by itself: "4" for "four" and "4"; nothing for any other."""
+        if token.isdecimal():
+            return token if len(token) == 1 else ""
         value = self.units.get(token, 10.0)
         return str(int(value)) if value < 10 else ""
 

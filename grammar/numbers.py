@@ -128,7 +128,7 @@ class NumberReader:
         return (value + float(f"0.{digits}"), end) if digits else (value, at)
 
     def _decimal(self, word: str) -> str:
-        if word.isdigit():
+        if word.isdecimal():
             return word
         if word in self._words.inner_zero:
             return "0"
