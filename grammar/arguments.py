@@ -19,6 +19,7 @@ _QUANTITIES = frozenset(_TYPE_UNITS)
 _THINGS = frozenset({"physobj", "location", "human", "artifact", "any"})
 _FORWARD = Term("forward")
 _VAGUE = (Term("little"), Term("max"))
+_NO_PLACES = frozenset({"for", "with", "without", "of"})  # relations that say nothing of where
 _ON_THE_WAY = frozenset({"via", "through"})
 BARE_DEGREES_MIN = 5  # nobody means degrees by "turn left two"
 
@@ -201,6 +202,8 @@ class ArgumentFitter:
             return form if form.pred in slot.markers else None
         if form.pred in slot.markers and len(form.args) == 1 and self._marked(slot, form.args[0]):
             return form.args[0]
+        if form.pred in _NO_PLACES:
+            return None
         wanted = {Kind.PATH: {"path"}, Kind.LOCATION: {"place", "path"}}.get(kind, set())
         return form if wanted & set(slot.types) else None
 

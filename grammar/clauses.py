@@ -56,6 +56,8 @@ class Composer:
     def _called_off(self, clauses: Clauses) -> Clauses:
         """ "turn left, never mind": what is called off before it was sent is not sent."""
         last = max((at for at, clause in enumerate(clauses) if _is_cancel(clause.form)), default=0)
+        if not last:
+            return clauses
         return tuple(clause for at, clause in enumerate(clauses) if at >= last or self.is_control(clause.form))
 
     def _corrected(self, clauses: Clauses, corrects: bool) -> Clauses:
@@ -69,6 +71,8 @@ class Composer:
 
 def _without_setting_out(clauses: Clauses) -> Clauses:
     """ "go stand by the door": to go is part of what is then to be done."""
+    if len(clauses) == 1:
+        return clauses
     return tuple(
         clause
         for clause, following in zip(clauses, (*clauses[1:], None), strict=True)

@@ -46,6 +46,8 @@ class Neighbours:
         self._ones = _in(categories, {"ONE"})
         self._nouns |= self._ones
         self._sides = _in(categories, {"SIDE_ADJ"})
+        self._before_robots = _in(categories, {"DETERMINER", "ADJECTIVE", "ORDINAL", "VERB", "PATH", "LOC", "BE"})
+        self._before_robots -= self._sides
         self._places = frozenset(sense.words[0] for sense in lexicon.all_senses() if sense.category == "LOC")
         self._places -= self._determiners | self._ways | self._of
         adjectives = {sense.words[0] for sense in lexicon.all_senses() if sense.category == "ADJECTIVE"}
@@ -68,6 +70,8 @@ class Neighbours:
             return (_PASSED_OVER,)  # "go first there, then there"
         if word in self._benefactives and before in self._to_do and after in self._determiners:
             return (_PASSED_OVER, *found)  # "find me a chair"
+        if word in self._addresses and not after and before not in self._before_robots:
+            return (_PASSED_OVER, *found)  # "face north, robot"
         if word in self._intensifiers and before in self._nouns and after in self._places:
             return (_PASSED_OVER, *found)  # "the box right behind you"
         if word in self._ones and before in self._sides:

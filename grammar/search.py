@@ -40,7 +40,7 @@ class Search:
         found = self._from(start)
         if found is None and start > at:
             found, before = self._from(at), False  # "next or last" is an ordinal after all
-        return None if found is None else (replace(found[0], before=before), *found[1:])
+        return found if found is None or not before else (replace(found[0], before=before), *found[1:])
 
     def _from(self, start: int) -> Clauses | None:
         if start not in self._known:

@@ -15,7 +15,9 @@ from .neighbours import Neighbours
 from .tokens import MARKS
 
 DERIVED_TERMINALS = (*("QTY", "QTY_MORE", "NUMBER", "CARDINAL", "PREDICATIVE", "NAME", "NEW_NAME", "NAME_GIVEN"),)
-_FIRST_CHOICE = frozenset({"STOPPING", "LIGHT", "WAY", "BEFORE", "ENUM", "PRAISE", "VAGUE", "AXIS", "CLOSER", "AGAIN"})
+_FIRST_CHOICE = frozenset(
+    {"STOPPING", "LIGHT", "WAY", "BEFORE", "ENUM", "PRAISE", "VAGUE", "AXIS", "CLOSER", "AGAIN", "HEADING"}
+)
 _SECOND_CHOICE = frozenset({"PATH", "NUMBER", "CARDINAL"})
 _SIDES = frozenset({"SIDE"})
 _DIRECTIONS = frozenset({"AXIS", "SIDE", "HEADING"})
