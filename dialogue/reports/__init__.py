@@ -11,6 +11,7 @@ from grounding import Reason, Unresolved
 from voxml.vocabulary import Lexicon
 
 from .asked import Asked, Needs, Report
+from .frames import frame
 from .kirby import WHO, can, doing, done, going, todo, understood, why
 from .places import distance, heading, where
 from .properties import colour, is_, shape, size, what
@@ -54,6 +55,7 @@ _ANSWERS: Mapping[str, Callable[[Asked], Report]] = {
     "can": can,
     "doing": doing,
     "report": doing,
+    "frame": frame,
     "going": going,
     "done": done,
     "todo": todo,
