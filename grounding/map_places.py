@@ -11,11 +11,13 @@ from robot.geometry import Point, Pose, Segment, wrap_angle
 
 from .approach import sees, wall_ends_m
 from .entities import Entity
-from .floor_plan import FloorPlan, Room, floor_plan
+from .floor_plan import DOORWAY, FloorPlan, Room, floor_plan
 from .regions import sampled
 from .relations import COMPASS_RAD
 
 CORNER, WALL = "corner", "wall"
+OPENINGS = frozenset({DOORWAY, "opening", "door", "entrance", "exit"})
+"""What an opening may be called."""
 
 Walls = tuple[Segment, ...]
 
@@ -39,12 +41,25 @@ def map_place(id: str, walls: Walls, robot: Pose) -> Entity | None:
 
 
 def doorways(walls: Walls, robot: Pose) -> tuple[Entity, ...]:
-    """Those of the room in which the robot is, or all where it is in none that is known."""
+    """Those of the room in which the robot is, or all where it is in none that is known.
+
+    Each is named by the wall in which it is, or where that has several, by where it lies from the middle of the room.
+    """
     plan = floor_plan(walls)
     if plan is None:
         return ()
     here = plan.room_at(robot.point)
-    return _named(plan.doorways if here is None else plan.doorways_of(here), here, robot)
+    ways = plan.doorways if here is None else plan.doorways_of(here)
+    middle = robot.point if here is None else here.middle
+    by_wall = [_compass(_outwards_rad(way.pose, middle)) for way in ways]
+    by_place = [_compass(middle.bearing_to(way.point)) for way in ways]
+    names = (wall if by_wall.count(wall) == 1 else place for wall, place in zip(by_wall, by_place, strict=True))
+    return tuple(replace(way, attributes=(name,)) for way, name in zip(ways, names, strict=True))
+
+
+def _outwards_rad(doorway: Pose, middle: Point) -> float:
+    """The way through it, out of the room."""
+    return doorway.yaw_rad if doorway.to_local(middle).x_m < 0 else doorway.yaw_rad + math.pi
 
 
 def corners(walls: Walls, robot: Pose) -> tuple[Entity, ...]:
@@ -151,12 +166,6 @@ def _whole(id: str, wall: Segment) -> Entity:
     middle = wall.midpoint
     pose = Pose(middle.x_m, middle.y_m, wall.direction_rad + math.pi / 2)
     return Entity(id, WALL, pose, size_m=(0.0, wall.length_m, _WALL_HEIGHT_M))
-
-
-def _named(places: tuple[Entity, ...], here: Room | None, robot: Pose) -> tuple[Entity, ...]:
-    """Each with the direction in which it lies from the middle of the room: "the north wall"."""
-    middle = robot.point if here is None else here.middle
-    return tuple(replace(place, attributes=(_compass(middle.bearing_to(place.point)),)) for place in places)
 
 
 def _compass(bearing_rad: float) -> str:

@@ -9,7 +9,7 @@ from robot.geometry import Point, Pose, Segment
 
 from .entities import Entity
 from .floor_plan import Room
-from .map_places import WALL, ends_of
+from .map_places import OPENINGS, WALL, ends_of
 from .relations import COMPASS_RAD
 from .world import World
 
@@ -102,7 +102,7 @@ _PLACES: Mapping[str, _Place] = {
     "path.around": _seen(0.0),
     "path.through": _through,
     "path.across": _seen(0.0),
-    "path.in": lambda robot, thing: thing.point,
+    "path.in": lambda robot, thing: _through(robot, thing) if thing.type in OPENINGS else thing.point,
     "RCC8.NTPP": lambda robot, thing: thing.point,
     **{f"cardinal.{name}": _on_map(yaw_rad) for name, yaw_rad in COMPASS_RAD.items()},
 }

@@ -13,7 +13,7 @@ from robot.geometry import Point, Segment
 from .entities import Mask
 
 CELL_M = 0.1
-_MARGIN_CELLS = 5  # around the walls, so that what lies outside is one region
+_MARGIN_CELLS = 5.5  # around the walls, so that what lies outside is one region; a wall runs through middles of cells
 OUTSIDE = 0
 
 
@@ -29,7 +29,7 @@ class Grid:
         """The grid that holds all of the walls, which there must be."""
         ends = np.array([(p.x_m, p.y_m) for wall in walls for p in (wall.start, wall.end)])
         low = ends.min(axis=0) - _MARGIN_CELLS * CELL_M
-        columns, rows = np.ceil((ends.max(axis=0) - low) / CELL_M).astype(int) + _MARGIN_CELLS
+        columns, rows = np.ceil((ends.max(axis=0) - low) / CELL_M + _MARGIN_CELLS).astype(int)
         return cls(Point(float(low[0]), float(low[1])), (int(rows), int(columns)))
 
     def cells(self, xy_m: NDArray[np.float64]) -> NDArray[np.intp]:

@@ -11,14 +11,14 @@ from robot.geometry import Pose, wrap_angle
 
 from .descriptions import DEFINITE, EXCLUDING, Description
 from .entities import Entities, Entity
-from .floor_plan import DOORWAY, ROOM, ROOMS, FloorPlan, Room
-from .map_places import CORNER, WALL, Walls, corners, doorways, walls_in_sight
+from .floor_plan import ROOM, ROOMS, FloorPlan, Room
+from .map_places import CORNER, OPENINGS, WALL, Walls, corners, doorways, walls_in_sight
 from .relations import meeting_key_m
 from .world import World
 
 _BEYOND_M = 0.8  # behind a doorway, where a room begins that was not seen yet
 _PLACES: Mapping[str, Callable[[Walls, Pose], tuple[Entity, ...]]] = {
-    **dict.fromkeys((DOORWAY, "opening", "door", "entrance", "exit"), doorways),
+    **dict.fromkeys(OPENINGS, doorways),
     CORNER: corners,
     WALL: walls_in_sight,
 }
