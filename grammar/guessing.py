@@ -7,7 +7,7 @@ them, and the grammar must read the whole: so a guess means what its words say, 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations, islice
 from typing import Protocol
 
@@ -15,17 +15,21 @@ from voxml.terms import Form, Quantity, Term
 from voxml.vocabulary import Lexicon
 
 from .acts import DialogueAct, Function
-from .lattice import Lattice
+from .lattice import SEPARATORS, Lattice
 from .reader import Reader
 from .tokens import MARKS
 
 NONE = "none"
 """What a classifier calls utterances that ask for nothing."""
 
+STOPPED = "stop"
+"""The program that is carried out without asking."""
+
 UNKNOWN_MAX = 3  # more unknown words than that, and it is another subject
 WORDS_MAX = 16
 DROPPED_MAX = 1  # known words that may be passed over
-TRIALS_MAX = 60
+TRIALS_MAX = 40
+CLAUSES_MAX = 3
 LIGHT_VERBS_MAX = 3
 _DROPPABLE = frozenset({"PRONOUN", "DETERMINER", "DEMONSTRATIVE", "VERB", "VERB_ING", "LIGHT", "MANNER", "AS", "BE"})
 """A word of these categories alone may be passed over: never an amount, a side, a place or a thing, nor "not"."""
@@ -74,7 +78,30 @@ class Guesser:
         return tuple(word.shown for word in self._words(text))
 
     def guess(self, text: str, proposer: Proposer) -> tuple[DialogueAct, ...] | None:
-        """The act that the proposer's program makes of the text, to be confirmed; stopping needs no confirmation."""
+        """The acts that the proposer's programs make of the text, to be confirmed; stopping needs no confirmation."""
+        said = self._said_again(text, proposer) or self._clause_by_clause(text, proposer)
+        if said is None:
+            return None
+        whole = (0, len(text))
+        if said == STOPPED:
+            return (DialogueAct(Function.INSTRUCT, Term("stop"), whole),)
+        acts = self._reader.read(said)
+        assert isinstance(acts, tuple)
+        return tuple(replace(act, span=whole, repaired=said) for act in acts)
+
+    def _clause_by_clause(self, text: str, proposer: Proposer) -> str | None:
+        """Orders one after the other, those that cannot be read said again."""
+        clauses = self._clauses(text)
+        if not 1 < len(clauses) <= CLAUSES_MAX:
+            return None
+        said = [clause if self._is_order(clause) else self._said_again(clause, proposer) for clause in clauses]
+        if STOPPED in said:
+            return STOPPED
+        again = ", then ".join(clause for clause in said if clause is not None)
+        return again if None not in said and self._is_order(again) else None
+
+    def _said_again(self, text: str, proposer: Proposer) -> str | None:
+        """One order with the verb of the program that the proposer names, if it can be read so."""
         words = self._words(text)
         unknown = sum(not word.known for word in words)
         if unknown > UNKNOWN_MAX or unknown == len(words) or len(words) > WORDS_MAX:
@@ -82,20 +109,33 @@ class Guesser:
         pred = proposer(tuple(word.shown for word in words))
         if pred is None or pred not in self._verbs:
             return None
-        if pred == "stop":
-            return (DialogueAct(Function.INSTRUCT, Term("stop"), (0, len(text))),)
-        for reworded in islice(self._reworded(words, pred), TRIALS_MAX):
-            form = self._form(reworded, pred)
-            if form is not None:
-                return (DialogueAct(Function.INSTRUCT, form, (0, len(text)), repaired=reworded),)
-        return None
+        if pred == STOPPED:
+            return STOPPED
+        trials = islice(self._reworded(words, pred), TRIALS_MAX)
+        return next((reworded for reworded in trials if self._asks_for(reworded, pred)), None)
 
-    def _form(self, text: str, pred: str) -> Form | None:
-        """What the text means, if it is one instruction to carry out the program, without a slip of the tongue."""
+    def _asks_for(self, text: str, pred: str) -> bool:
+        """Whether the text is one instruction to carry out the program, without a slip of the tongue."""
         acts = self._reader.read(text) if self._reader.is_fluent(text) else None
         if not isinstance(acts, tuple) or len(acts) != 1 or acts[0].function is not Function.INSTRUCT:
-            return None
-        return acts[0].form if head_program(acts[0].form, self._lexicon) == pred else None
+            return False
+        return head_program(acts[0].form, self._lexicon) == pred
+
+    def _is_order(self, text: str) -> bool:
+        acts = self._reader.read(text)
+        return isinstance(acts, tuple) and all(act.function is Function.INSTRUCT for act in acts)
+
+    def _clauses(self, text: str) -> list[str]:
+        """What stands between "and", "then" and marks."""
+        tokens = self._reader.tokens(text)
+        lattice = self._reader.lattice(tokens)
+        clauses: list[list[str]] = [[]]
+        for at, token in enumerate(tokens):
+            if token.text in MARKS or not SEPARATORS.isdisjoint(lattice.categories(at)):
+                clauses.append([])
+            else:
+                clauses[-1].append(token.text)
+        return [" ".join(clause) for clause in clauses if clause]
 
     # ------------------------------------------------------------ words
     def _words(self, text: str) -> tuple[_Word, ...]:
@@ -105,7 +145,7 @@ class Guesser:
         at = 0
         while at < len(tokens):
             word, length = self._word(lattice, at, behind_unknown=bool(words) and not words[-1].known)
-            if word.said not in MARKS:
+            if not _is_passed_over(lattice, at):
                 words.append(word)
             at += length
         return tuple(words)
@@ -138,6 +178,12 @@ class Guesser:
                 for place in dict.fromkeys([*places, 0]):
                     for verb in (*light, self._verbs[pred]):
                         yield _said_again(words, kept - set(dropped), place, verb, pred)
+
+
+def _is_passed_over(lattice: Lattice, at: int) -> bool:
+    """Whether a token is a mark, a "please", or who is spoken to."""
+    edges = lattice.edges(at)
+    return lattice.texts[at] in MARKS or (bool(edges) and edges[0].terminal is None)
 
 
 def _said_again(words: tuple[_Word, ...], kept: frozenset[int], place: int, verb: str, pred: str) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -58,6 +60,13 @@ def test_nothing_is_guessed_where_more_than_the_verb_would_have_to_be(text: str,
     assert guessed(text, pred) is None
 
 
+def test_of_several_clauses_those_are_guessed_that_cannot_be_read() -> None:
+    acts = parse("turn left and scrondle to the door, then take a picture", proposer=always("go"))
+    assert isinstance(acts, tuple)
+    assert [str(act.form) for act in acts] == ["turn(left)", "go(to(the(door)))", "take_picture"]
+    assert {act.repaired for act in acts} == {"turn left, then go to the door, then take a picture"}
+
+
 def test_what_may_be_meant_to_stop_stops() -> None:
     assert parse("grunch it now", proposer=always("stop")) == (DialogueAct(Function.INSTRUCT, Term("stop"), (0, 13)),)
 
@@ -76,13 +85,11 @@ def test_a_classifier_sees_amounts_by_their_dimension() -> None:
     st.lists(st.one_of(st.sampled_from(WORDS), st.sampled_from(["scrondle", "flomber", "2", "ten"])), max_size=8),
     st.sampled_from(sorted(GUESSER.programs)),
 )
-def test_whatever_is_guessed_is_one_instruction_that_says_it_is_a_guess(words: list[str], pred: str) -> None:
+def test_whatever_is_guessed_is_an_instruction_that_says_what_it_was_taken_for(words: list[str], pred: str) -> None:
     text = " ".join(words)
     acts = GUESSER.guess(text, always(pred))
     if acts is not None and acts[0].form != Term("stop"):
-        (act,) = acts
-        assert act.function is Function.INSTRUCT
-        assert act.repaired is not None
-        acts = READER.read(act.repaired)
-        assert isinstance(acts, tuple)
-        assert [each.form for each in acts] == [act.form]
+        (said,) = {act.repaired for act in acts}
+        assert said is not None
+        assert all(act.function is Function.INSTRUCT for act in acts)
+        assert [replace(act, span=(0, len(text)), repaired=said) for act in READER.read(said)] == list(acts)
