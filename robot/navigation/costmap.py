@@ -18,7 +18,7 @@ from robot.mapping.grid import OCCUPIED_LOG_ODDS, OccupancyGrid
 
 FORBIDDEN = -1.0  # what scikit-image's MCP takes as impassable
 MARGIN_M = 0.03  # on top of the robot's radius: half a cell of the grid's rounding
-NEAR_COST = 1.0
+NEAR_COST = 0.3
 NEAR_FALLOFF_M = 0.03  # steep: enough to keep clear of the shield, too little to make wide curves
 UNKNOWN_COST = 0.1
 ESCAPE_COST = 20.0
