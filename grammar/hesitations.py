@@ -62,7 +62,8 @@ class Hesitations:
             return False
         if self._words.is_number(after[0]):
             return False
-        return not self._words.kinds(before, len(before) - 1).isdisjoint(self._words.kinds(after, 0))
+        alike = self._words.kinds(before, len(before) - 1) & self._words.kinds(after, 0)
+        return not alike <= {"VERB"}
 
     def _as_known(self, token: Token) -> Token:
         """A word that was drawn out, as it is known: "sssstop", "leeeft"."""

@@ -148,8 +148,8 @@ class KnownWords:
         return bool(self.kinds(texts, at) & _NAMED)
 
     def is_verb(self, texts: Sequence[str], at: int) -> bool:
-        """Whether a clause may begin with the phrase, as none does with the "turn" of "a right turn"."""
-        if not self.kinds(texts, at) & _VERB:
+        """Whether a clause may begin with the phrase, as with neither "turn" of "a right turn" and "do not turn"."""
+        if not self.kinds(texts, at) & _VERB or (at and self.denies(texts[at - 1])):
             return False
         if at and self.is_number(texts[at - 1]) and (self.amounts.may_belong(texts[at]) or self.is_unit(texts[at])):
             return False  # "one point five", "four steps"

@@ -147,6 +147,8 @@ class Restarts:
         words = self._words
         if not texts[first].isalpha() or words.amounts.numbers.is_spelt(texts, first):
             return False
-        after = texts[second + 1] if second + 1 < len(texts) else ""
-        in_longer = first > 0 and words.is_number(texts[first - 1])
-        return in_longer or (after != "" and (words.is_unit(after) or words.amounts.may_belong(after)))
+        if first and words.is_number(texts[first - 1]):
+            return True
+        if second + 1 < len(texts):
+            return words.is_unit(texts[second + 1]) or words.amounts.may_belong(texts[second + 1])
+        return first > 0 and not words.is_open(texts[first - 1]) and words.kind(texts, first - 1) != "thing"

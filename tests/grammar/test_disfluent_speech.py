@@ -38,6 +38,17 @@ COMMANDS = (
     "go forward one meter and take an image",
     "face south and then back up five feet",
 )
+NO_COMMANDS = (
+    "how far did you turn left",
+    "do not go forward",
+    "the robot turned right before lunch",
+    "what would happen if you went back",
+    "i was going to say go left",
+    "why are you moving forward",
+    "my brother can drive two miles",
+    "is the door on your left open",
+)
+HARMLESS = ("stop", "not(", "is(")
 PAUSES = ("uh", "um", "er", "erm", "hmm", "ah", "uhhh")
 EDITS = ("no", "sorry", "i mean", "no wait", "uh i mean")
 CONNECTIVES = frozenset({"and", "then"})
@@ -95,3 +106,13 @@ def test_a_disfluent_command_means_the_same_or_is_asked_back(
     others = {text: found for text in said if (found := outcome(text)) not in (meant, None)}
     assert not others
     assert sum(outcome(text) == meant for text in said) >= 0.85 * len(said)
+
+
+@pytest.mark.parametrize("disfluent", [with_pauses, with_repetitions, with_fragments, with_restarts])
+@pytest.mark.parametrize("text", NO_COMMANDS)
+def test_what_is_no_command_becomes_none_by_disfluency(
+    text: str, disfluent: Callable[[list[str]], Iterator[list[str]]]
+) -> None:
+    for words in disfluent(text.split()):
+        forms = outcome(" ".join(words)) or ()
+        assert all(form.startswith(HARMLESS) for form in forms), words
