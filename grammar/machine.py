@@ -16,7 +16,7 @@ from typing import Any
 from .tables import END, Tables
 
 STATES_MAX = 20
-STEPS_MAX = 4_000
+STEPS_MAX = 1_000  # people need fewer than a hundred, forty clauses a few hundred
 
 
 class Refused(Exception):  # noqa: N818 - a reading that does not hold, with the reason; not an error of the program

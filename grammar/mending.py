@@ -17,6 +17,7 @@ from .stopping import Stopping
 Reading = tuple[DialogueAct, ...] | NotUnderstood
 
 MENDED_MAX_CHARS = 200
+WORDS_TRIED_MAX = 72  # in all proposals together: a dozen for a few words, fewer for many
 _STOP = Term("stop")
 _REQUESTS = frozenset({Function.INSTRUCT, Function.QUESTION})
 
@@ -33,12 +34,12 @@ class Mender:
 
     def mend(self, text: str, failure: NotUnderstood, proposer: Proposer | None = None) -> Reading:
         """Stop at once where that may be meant; a repaired or guessed reading, to be confirmed; or the failure."""
-        if len(text) > MENDED_MAX_CHARS:
+        if len(text) > MENDED_MAX_CHARS or not text.split():
             return failure
         proposals = tuple(self._speller.proposals(text))
         if any(map(self._stopping.may_be_meant, (text, *proposals))):
             return (DialogueAct(Function.INSTRUCT, _STOP, (0, len(text))),)
-        for proposal in proposals:
+        for proposal in proposals[: max(1, WORDS_TRIED_MAX // len(text.split()))]:
             reading = self._read(proposal)
             if isinstance(reading, tuple):
                 return tuple(replace(act, span=(0, len(text)), repaired=proposal) for act in reading)
