@@ -10,6 +10,8 @@ from grounding.descriptions import DETERMINERS
 from grounding.relations import COMPASS_RAD
 from voxml.vocabulary import Lexicon
 
+from .units import like
+
 _OPPOSITE = {"left": "right", "right": "left", "forward": "back", "back": "forward"}
 _OPPOSITE |= {"north": "south", "south": "north", "east": "west", "west": "east"}
 _SIDES = frozenset({"left", "right"})
@@ -29,13 +31,13 @@ def completed(fragment: Form, last: Form, lexicon: Lexicon) -> Form | None:
     if not isinstance(clause, Term):
         return None
     if isinstance(fragment, Quantity):
-        return _with_amount(fragment, clause)
+        return _with_amount(fragment, clause, lexicon)
     if not isinstance(fragment, Term):
         return None
     if _is_place(fragment, lexicon):
         return _with_place(fragment, clause, lexicon)
     if fragment.pred in _AMOUNTS:
-        return _with_amount(fragment.args[0] if fragment.args else fragment, clause)
+        return _with_amount(fragment.args[0] if fragment.args else fragment, clause, lexicon)
     if not fragment.args and fragment.pred in _WAYS:
         return _with_way(fragment, clause)
     return _reversed(clause) if fragment.pred == "other" else None
@@ -123,11 +125,12 @@ def _with_way(way: Term, last: Term) -> Form | None:
     return replace(last, args=tuple(way if arg == ways[0] else arg for arg in last.args))
 
 
-def _with_amount(amount: Form, last: Term) -> Form | None:
-    """The last movement, by this amount; a bare number has the unit that the movement is measured in."""
+def _with_amount(amount: Form, last: Term, lexicon: Lexicon) -> Form | None:
+    """The last movement, by this amount; a bare number has the unit of the one before."""
     unit = Unit.DEGREE if last.pred == "turn" else Unit.METRE
     if isinstance(amount, Quantity):
-        amount = replace(amount, unit=unit) if amount.unit is Unit.COUNT else amount
+        before = next((arg for arg in last.args if isinstance(arg, Quantity)), None)
+        amount = like(amount.value, before, unit, lexicon) if amount.unit is Unit.COUNT else amount
         unit = amount.unit
     if last.pred not in ("turn", "go", "sidestep"):
         return Term("go", (Term("forward"), amount)) if unit is Unit.METRE else None

@@ -95,7 +95,7 @@ def carry_out(turn: Turn, acts: tuple[DialogueAct, ...]) -> None:
 def _send(turn: Turn, made: Plan, acts: tuple[DialogueAct, ...]) -> None:
     """Send a plan, unless the robot would refuse it where it is: then offer what would have to be done first."""
     turn.highlight(tuple(entity.id for entity in made.entities), made.places)
-    movements = tuple(command for command in made.commands if _moves(command))
+    movements = any(map(_moves, made.commands))
     if movements and not _CLEARING & set(made.commands) and (offer := _in_the_way(turn)) is not None:
         order = " and ".join(command_words(command) for command in made.commands)
         question = Question(f"{offer.text} and {order}?", acts, commands=(offer.command,))
@@ -111,7 +111,7 @@ def _send(turn: Turn, made: Plan, acts: tuple[DialogueAct, ...]) -> None:
         _speak_of(turn, made)
         start = turn.session.start
         ids = turn.dispatch(made.commands)
-        if movements:
+        if movements or Control.TAKE_PICTURE in made.commands:
             past = Past(tuple(act.form for act in acts), made.commands, start, ids)
             turn.update(history=(*turn.session.history, past)[-HISTORY_MAX:])
     elif not made.events:

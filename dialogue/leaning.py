@@ -76,7 +76,7 @@ def _returned(session: Session) -> Form:
 
 def _spoken_of(session: Session) -> Form | None:
     """The place or thing last spoken of, unless the robot is there, or on its way there."""
-    thing = session.world.entities.get(session.world.focus[0]) if session.world.focus else None
+    thing = session.world.get(session.world.focus[0]) if session.world.focus else None
     place = session.place or (None if thing is None else thing.point)
     if place is None or place.distance_to(session.start.point) <= _HERE_M:
         return None

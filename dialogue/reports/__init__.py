@@ -17,7 +17,7 @@ from .places import distance, heading, where
 from .properties import colour, is_, shape, size, what
 from .things import count, exists, list_, see, which
 
-__all__ = ["Report", "report"]
+__all__ = ["QUESTIONS", "Report", "report"]
 
 
 def report(question: Form, session: Session, lexicon: Lexicon) -> Report | Unresolved:
@@ -62,3 +62,6 @@ _ANSWERS: Mapping[str, Callable[[Asked], Report]] = {
     "understood": understood,
     "why": why,
 }
+
+QUESTIONS = frozenset(_ANSWERS)
+"""Every kind of question that has an answer, by the head of its form."""

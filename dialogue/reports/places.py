@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dialogue.wording import direction, metres, place_words
+from dialogue.wording import direction, metres, phrase, place_words
 from grammar.forms import Term
 from grounding import Entity, Grounded, resolve
 from grounding.places import wall_ahead_m
@@ -43,7 +43,15 @@ def _here(asked: Asked) -> Report:
     if near is not None and robot.point.distance_to(near.point) <= NEAR_M:
         by = (near,)
     beside = f", by {asked.names(by)[0]}" if by else ""
-    return Report(f"I am at {place_words(robot.point)}{beside}, facing {_compass(robot.yaw_rad)}", by)
+    inside = f" in {name}" if (name := _room_around(asked)) else ""
+    return Report(f"I am at {place_words(robot.point)}{inside}{beside}, facing {_compass(robot.yaw_rad)}", by)
+
+
+def _room_around(asked: Asked) -> str:
+    """What kind of room Kirby is in; that it is just a room says nothing."""
+    plan = asked.world.floor_plan
+    room = None if plan is None else plan.room_at(asked.world.robot.point)
+    return "" if room is None or room.place.type == "room" else phrase(Term("the", (Term(room.place.type),)))
 
 
 def heading(asked: Asked) -> Report:
