@@ -68,7 +68,7 @@ class Reader:
         if fewer != cleaned:
             yield fewer, corrects, self._machine
         if said != cleaned:
-            yield said, False, self._machine  # what looks like a slip of the tongue may be none: "i am sorry"
+            yield said, False, self._thorough_machine  # what looks like a slip of the tongue may be none: "i am sorry"
 
     def tokens(self, text: str) -> tuple[Token, ...]:
         """The words that are read: without hesitations, repetitions and what was taken back."""
