@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from voxml.terms import Quantity, Unit, parse_form
 from voxml.words import ClosedClasses
 
+from .fixed_phrases import FixedPhrases
 from .number_words import number_words
 from .numbers import NumberReader, Read
 from .tokens import MARKS
 
 RATIO_SLACK = 1e-6
-_LEAD_MAX = 4  # words, as in "a distance of about"
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,12 +32,11 @@ class AmountReader:
         self.numbers = NumberReader(words)
         self._words = words
         self._more = frozenset(closed.table("more"))
-        self._leads = {word.words for word in closed.words_of("amount_lead")}
-        self._lead_first = frozenset(lead[0] for lead in self._leads)
+        self._leads = FixedPhrases.of(closed, "amount_lead")
         self._units = _units(closed, "unit")
         self._last_units = _units(closed, "unit_last")
         self._parted_units = _units(closed, "unit_whole")
-        self._starters = self._more | self._lead_first
+        self._starters = self._more | self._leads.first_words
 
     def may_start(self, token: str) -> bool:
         """Whether a number or quantity can begin with this token."""
@@ -116,11 +115,7 @@ class AmountReader:
 
     def _past_approximate(self, tokens: Sequence[str], at: int) -> int:
         """Past "about", "for", "at least", "maybe": the amount is taken as said."""
-        while at < len(tokens) and tokens[at] in self._lead_first:
-            lengths = range(_LEAD_MAX, 0, -1)
-            length = next((length for length in lengths if tuple(tokens[at : at + length]) in self._leads), 0)
-            if not length:
-                break
+        while length := self._leads.length(tokens, at):
             at += length
         return at
 

@@ -14,6 +14,7 @@ class FixedPhrases:
         table: dict[str, list[tuple[str, ...]]] = {}
         for words in phrases:
             table.setdefault(words[0], []).append(words)
+        self.first_words = frozenset(table)
         self.last_words = frozenset(words[-1] for found in table.values() for words in found)
         self._table = {first: tuple(sorted(found, key=lambda words: -len(words))) for first, found in table.items()}
 

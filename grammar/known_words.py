@@ -38,6 +38,7 @@ class KnownWords:
         self._sorted = sorted(self.vocabulary)
         self._joining = frozenset(closed.table("AND")) | frozenset(closed.table("THEN"))
         self._not = frozenset(closed.table("NOT"))
+        self._no = frozenset(closed.table("NO"))
         self._idle = frozenset(closed.table("skip")) | frozenset(closed.table("reply")) | MARKS
         self._articles = frozenset(closed.table("article"))
         self._open = self._articles | closed.table("open").keys()
@@ -68,6 +69,10 @@ class KnownWords:
     def denies(self, word: str) -> bool:
         """Whether the word is "not"."""
         return word in self._not
+
+    def refuses(self, word: str) -> bool:
+        """Whether the word is "no"."""
+        return word in self._no
 
     def is_idle(self, word: str) -> bool:
         """Whether the word adds nothing to what is asked for: "okay", "please"."""
@@ -148,7 +153,7 @@ class KnownWords:
         return bool(self.kinds(texts, at) & _NAMED)
 
     def is_verb(self, texts: Sequence[str], at: int) -> bool:
-        """Whether a clause may begin with the phrase, as with neither "turn" of "a right turn" and "do not turn"."""
+        """Whether a clause may begin with the phrase, as the "turn" of "a right turn" and "do not turn" does not."""
         if not self.kinds(texts, at) & _VERB or (at and self.denies(texts[at - 1])):
             return False
         if at and self.is_number(texts[at - 1]) and (self.amounts.may_belong(texts[at]) or self.is_unit(texts[at])):

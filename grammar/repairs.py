@@ -59,7 +59,8 @@ class Repairs:
     def _leading(self, texts: Sequence[str], at: int) -> int:
         """How long the term at the beginning is; 0 where nothing but a refusal follows it."""
         length = self._terms.strong(texts, at) or self._weak_before_strong(texts, at)
-        return 0 if all(text in ("no", *MARKS) for text in texts[at + length :]) else length
+        rest = texts[at + length :]
+        return 0 if all(text in MARKS or self._words.refuses(text) for text in rest) else length
 
     def _weak_before_strong(self, texts: Sequence[str], at: int) -> int:
         """How long the "no," of "no, I mean" is."""

@@ -9,6 +9,7 @@ from voxml.terms import Name, Quantity, Term, Unit
 from voxml.vocabulary import Lexicon
 
 from .amounts import AmountReader
+from .fixed_phrases import FixedPhrases
 from .machine import Edge
 from .names import NameReader
 from .neighbours import Neighbours
@@ -44,7 +45,7 @@ class WordReader:
         self._amount_reader = amounts
         self._neighbours = Neighbours(lexicon)
         self.names = NameReader(lexicon)
-        self._clock = frozenset(lexicon.closed.table("clock"))
+        self._clock = FixedPhrases.of(lexicon.closed, "clock")
         self._replies = frozenset(lexicon.closed.table("reply"))
         self._articles = frozenset(lexicon.closed.table("article"))
         self._entries = self._index()
@@ -120,8 +121,9 @@ class WordReader:
         """A number by itself, as an hour of the clock, and as a count."""
         value, length = Quantity(number), end - at
         found = [Edge("NUMBER", value, length)]
-        if end < len(texts) and texts[end] in self._clock and 1 <= number <= HOURS_MAX:
-            found.append(Edge("HEADING", Term("clock", (value,)), length + 1))
+        clock = self._clock.length(texts, end)
+        if clock and 1 <= number <= HOURS_MAX:
+            found.append(Edge("HEADING", Term("clock", (value,)), length + clock))
         if number == int(number) and 1 <= number <= CARDINAL_MAX:
             found.append(Edge("CARDINAL", value, length))
         return found
