@@ -38,6 +38,10 @@ def _turning(place: Form, headings: frozenset[Form]) -> Form | None:
             return Term("turn", (side,))
         case Term("to" | "facing", (Term() as heading,)) if heading in headings:
             return Term("face", (heading,))
+        case Term(relation, (Term("you"),)) if Term(relation.removesuffix("_of")) in headings:
+            return Term("face", (Term(relation.removesuffix("_of")),))
+        case Term("left_of" | "right_of" as relation, (Term("you"),)):
+            return Term("turn", (Term(relation.removesuffix("_of")),))
         case Term("the" | "a" | "your", (core, *modifiers)) if _scene(place):
             found = (_turning(each, headings) for each in (*_side_of(core), *modifiers))
             return next((turning for turning in found if turning is not None), None)

@@ -55,6 +55,8 @@ class Meaning(VerbActions):
         said = self.verbless(args)
         if said is not None:
             return Function.INSTRUCT, said
+        if len(args) == 1 and args[0].kind is Kind.REPEAT:
+            return Function.FRAGMENT, Term("repeat", (args[0].form, Term("again")))
         if any(arg.kind in (Kind.PHRASE, Kind.EVENT) for arg in args):
             raise Refused("how")
         return Function.FRAGMENT, Term("again", tuple(arg.form for arg in args))

@@ -42,6 +42,7 @@ class Neighbours:
         self._clauses = self._verbs | _in(categories, {"LIGHT"}) | self._addresses
         self._ways = _in(categories, {"AXIS", "SIDE", "HEADING", "PLACE", "PATH"}) - self._nouns
         self._before_nouns = _in(categories, {"DETERMINER", "SIDE_ADJ", "ADJECTIVE", "ORDINAL"})
+        self._backing = _in(categories, {"AXIS"}) & _in(categories, {"VERB"})
         self._ends_and_ways = _in(categories, {"AXIS"}) & self._nouns
         self._ones = _in(categories, {"ONE"})
         self._nouns |= self._ones
@@ -90,9 +91,12 @@ class Neighbours:
         word = texts[at]
         after = texts[at + 1] if at + 1 < len(texts) else ""
         if word in self._refusals:
-            return tuple(edge for edge in found if edge.terminal != "DETERMINER")
+            wrong = "NO" if after in self._ones else "DETERMINER"  # "no one" is nobody
+            return tuple(edge for edge in found if edge.terminal != wrong or edge.length > 1)
         if word in self._enumerators and after in self._verbs:
             return (_PASSED_OVER,)
+        if word in self._backing:  # "back out of the room" is to do, not where
+            found = tuple(edge for edge in found if edge.terminal != "PATH")
         if word in self._addresses and (after or at):
             return (_PASSED_OVER, *found) if after else (_PASSED_OVER,)
         if word in self._openers and after in MARKS and at + 2 < len(texts) and texts[at + 2] in self._clauses:
