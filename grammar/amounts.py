@@ -75,6 +75,8 @@ class AmountReader:
 
     def more(self, tokens: Sequence[str], at: int) -> Read | None:
         """A number that adds, without its unit: "ten more", "another ten"."""
+        if self._more.isdisjoint(tokens):
+            return None
         start, added = self._past_more(tokens, at, False)
         found = self.numbers.number(tokens, start)
         if found is None:
@@ -107,7 +109,7 @@ class AmountReader:
     # ------------------------------------------------------------ before the number
     def _past_lead(self, tokens: Sequence[str], at: int) -> tuple[int, bool]:
         """Past "about another" and the like, but not into "a full turn", which is the name of a unit."""
-        if self._one_named(tokens, at) is not None:
+        if at >= len(tokens) or tokens[at] not in self._starters or self._one_named(tokens, at) is not None:
             return at, False
         at, more = self._past_more(tokens, self._past_approximate(tokens, at), False)
         at = self._past_approximate(tokens, at)

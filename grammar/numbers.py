@@ -54,12 +54,8 @@ class NumberReader:
         if tokens[at] in self._words.minus:
             found = self.number(tokens, at + 1)
             return None if found is None or found[0] < 0 else (-found[0], found[1])
-        found = (
-            self._part_of(tokens, at)
-            or self.fraction(tokens, at)
-            or self._cardinal(tokens, at)
-            or self._vague(tokens, at)
-        )
+        part = self.fraction(tokens, at)
+        found = self._cardinal(tokens, at) or self._vague(tokens, at) if part is None else self._of_many(tokens, part)
         if found is None or found[0] > VALUE_MAX:
             return None
         return self._with_fraction(tokens, *found)
@@ -85,14 +81,11 @@ class NumberReader:
                 return count * fractions[tokens[at + 1]], at + 2
         return None
 
-    def _part_of(self, tokens: Sequence[str], at: int) -> Read | None:
-        """ "half a dozen"."""
-        part = self.fraction(tokens, at)
-        if part is None:
-            return None
+    def _of_many(self, tokens: Sequence[str], part: Read) -> Read:
+        """ "half", or "half a dozen"."""
         start = part[1] + 1 if part[1] < len(tokens) and tokens[part[1]] in self._words.articles else part[1]
         if start >= len(tokens) or tokens[start] not in self._words.multipliers:
-            return None
+            return part
         return part[0] * self._words.multipliers[tokens[start]], start + 1
 
     def _vague(self, tokens: Sequence[str], at: int) -> Read | None:

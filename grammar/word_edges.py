@@ -109,9 +109,10 @@ class WordReader:
         number = reader.numbers.number(texts, at)
         if number is not None:
             found.extend(self._numbers(texts, at, *number))
-            elided = reader.with_unit_before(texts, at) if amount is None else None
-            if elided is not None and self._goes_on_with(texts, at, elided[0].unit):
-                found.append(Edge("QTY", elided[0], elided[1] - at))
+            if amount is None and at and self._may_be(texts[at - 1], _DIRECTIONS):
+                elided = reader.with_unit_before(texts, at)
+                if elided is not None and self._goes_on_with(texts, at, elided[0].unit):
+                    found.append(Edge("QTY", elided[0], elided[1] - at))
         more = reader.more(texts, at)
         if more is not None:
             found.append(Edge("QTY_MORE", Term("more", (Quantity(more[0]),)), more[1] - at))
@@ -131,8 +132,6 @@ class WordReader:
     def _goes_on_with(self, texts: Sequence[str], at: int, unit: Unit) -> bool:
         """Whether a number behind a direction may have left out the unit before: "(one meter and) back two", but not
         "(forward 3 feet,) right 90", for feet to a side take a side before them too."""
-        if not at or not self._may_be(texts[at - 1], _DIRECTIONS):
-            return False
         if unit is Unit.DEGREE or not self._may_be(texts[at - 1], _SIDES):
             return True
         return any(self._may_be(text, _SIDES) for text in texts[: at - 1])
