@@ -79,7 +79,10 @@ class Guesser:
 
     def guess(self, text: str, proposer: Proposer) -> tuple[DialogueAct, ...] | None:
         """The acts that the proposer's programs make of the text, to be confirmed; stopping needs no confirmation."""
-        said = self._said_again(text, proposer) or self._clause_by_clause(text, proposer)
+        clauses = self._clauses(text)
+        said = self._clause_by_clause(clauses, proposer)
+        if said is None and not any(self._begins_unknown(clause) for clause in clauses[1:]):
+            said = self._said_again(text, proposer)
         if said is None:
             return None
         whole = (0, len(text))
@@ -89,9 +92,8 @@ class Guesser:
         assert isinstance(acts, tuple)
         return tuple(replace(act, span=whole, repaired=said) for act in acts)
 
-    def _clause_by_clause(self, text: str, proposer: Proposer) -> str | None:
-        """Orders one after the other, those that cannot be read said again."""
-        clauses = self._clauses(text)
+    def _clause_by_clause(self, clauses: list[str], proposer: Proposer) -> str | None:
+        """Several orders, those that cannot be read said again; None where one of them is none."""
         if not 1 < len(clauses) <= CLAUSES_MAX:
             return None
         said = [clause if self._is_order(clause) else self._said_again(clause, proposer) for clause in clauses]
@@ -120,6 +122,11 @@ class Guesser:
         if not isinstance(acts, tuple) or len(acts) != 1 or acts[0].function is not Function.INSTRUCT:
             return False
         return head_program(acts[0].form, self._lexicon) == pred
+
+    def _begins_unknown(self, clause: str) -> bool:
+        """Whether a verb may stand first in a clause that nobody knows: it would be lost."""
+        words = self._words(clause)
+        return bool(words) and not words[0].known
 
     def _is_order(self, text: str) -> bool:
         acts = self._reader.read(text)

@@ -53,12 +53,13 @@ class Split:
     test: tuple[Sentence, ...]
 
 
-def gather(lexicon: Lexicon, seed: int, samples: int = SAMPLES) -> Split:
-    """Every sentence, each once, shuffled and split; the same ones for the same seed."""
+def gather(lexicon: Lexicon, programs: frozenset[str], seed: int, samples: int = SAMPLES) -> Split:
+    """Sentences that ask for one of the programs or for nothing, each once, shuffled and split, the same for a seed."""
     rng = random.Random(seed)  # noqa: S311 - not for secrets
     found: dict[str, Sentence] = {}
     for sentence in (*_said(lexicon), *_sampled(lexicon, rng, samples)):
-        found.setdefault(sentence.text, sentence)
+        if sentence.label in programs or sentence.label == NONE:
+            found.setdefault(sentence.text, sentence)
     shuffled = list(found.values())
     rng.shuffle(shuffled)
     test = int(len(shuffled) * TEST_SHARE)
@@ -87,7 +88,7 @@ def _labelled(text: str, acts: tuple[DialogueAct, ...] | NotUnderstood, lexicon:
     if not instructed:
         return Sentence(text.lower(), NONE, None, "corpora")
     label = head_program(acts[0].form, lexicon) if len(acts) == 1 else None
-    return None if label is None or label == "name" else Sentence(text.lower(), label, str(acts[0].form), "corpora")
+    return None if label is None else Sentence(text.lower(), label, str(acts[0].form), "corpora")
 
 
 def _sampled(lexicon: Lexicon, rng: random.Random, samples: int) -> Iterator[Sentence]:
@@ -98,7 +99,7 @@ def _sampled(lexicon: Lexicon, rng: random.Random, samples: int) -> Iterator[Sen
         if len(sample.text.split()) > SAMPLED_WORDS_MAX:
             continue
         label = head_program(sample.form, lexicon) if sample.function is Function.INSTRUCT else NONE
-        if label in (None, "name") or counts.get(label, 0) >= PER_LABEL_MAX:
+        if label is None or counts.get(label, 0) >= PER_LABEL_MAX:
             continue
         counts[label] = counts.get(label, 0) + 1
         yield Sentence(sample.text, label, None if label == NONE else str(sample.form), "sampled")

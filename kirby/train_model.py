@@ -37,7 +37,7 @@ def train(lexicon: Lexicon, tell: Tell, seed: int = SEED, samples: int = SAMPLES
     guesser = Guesser(lexicon, Reader(lexicon))
     damager = Damager(lexicon, guesser, random.Random(seed))  # noqa: S311 - not for secrets
     tell("gathering sentences")
-    split = gather(lexicon, seed, samples)
+    split = gather(lexicon, guesser.programs, seed, samples)
     tell(f"{len(split.train)} sentences to learn from, {len(split.dev)} to calibrate by, {len(split.test)} to test on")
     model = _fitted(split.train, damager, seed, epochs, tell)
     tell("calibrating and testing")

@@ -67,6 +67,14 @@ def test_of_several_clauses_those_are_guessed_that_cannot_be_read() -> None:
     assert {act.repaired for act in acts} == {"turn left, then go to the door, then take a picture"}
 
 
+def test_a_clause_is_not_lost_with_its_verb() -> None:
+    assert guessed("turn left and scrondle", "turn") is None
+    assert guessed("scrondle to the box and the chair", "go") == (
+        "go(to(and(the(box),the(chair))))",
+        "go to the box and the chair",
+    )
+
+
 def test_what_may_be_meant_to_stop_stops() -> None:
     assert parse("grunch it now", proposer=always("stop")) == (DialogueAct(Function.INSTRUCT, Term("stop"), (0, 13)),)
 
