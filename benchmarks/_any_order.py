@@ -10,12 +10,12 @@ import json
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from random import Random
 from typing import Any, TypeVar
 
-from dialogue import DialogueManager, Session
+from dialogue import DialogueManager, Question, Session
 from dialogue.codec import from_data, to_data
 from dialogue.events import (
     Dispatch,
@@ -231,8 +231,9 @@ def check_step(
     assert (after.question is not None) == (after.state in QUESTIONS), "a question and the state must agree"
     if _is_stop(event):
         assert sent[:1] == [Control.STOP], "what stops must stop at once, before anything else"
+        assert sent == [Control.STOP] or not _is_hardly_heard(event), "what was hardly heard beside it must wait"
         return
-    if after.question is not None and before.question is not None and after.question.acts == before.question.acts:
+    if _stays_open(before.question, after.question):
         assert not sent, "nothing is sent while the question that guards it stays open"
     if _is_unsure(event, said):
         assert set(sent) <= {Control.STOP} or before.agenda is not None, "nothing moves by guess"
@@ -242,6 +243,11 @@ def check_step(
         assert set(sent) <= {Control.QUEUE} or before.agenda is not None, "nothing moves that nobody asked for"
     if isinstance(event, Pointing) and before.question is None:
         assert not sent or before.agenda is not None, "a hand alone answers, and orders nothing"
+
+
+def _stays_open(before: Question | None, after: Question | None) -> bool:
+    """Whether a question is still to be answered, though it may have been asked once more."""
+    return before is not None and after is not None and replace(after, asked=before.asked) == before
 
 
 def _is_stop(event: Event) -> bool:
@@ -254,6 +260,10 @@ def _is_stop(event: Event) -> bool:
             return False
 
 
+def _is_hardly_heard(event: Event) -> bool:
+    return isinstance(event, Utterance) and event.confidence == UNSURE
+
+
 def _is_unsure(event: Event, said: Mapping[str, Reading]) -> bool:
     """Whether nothing of what was said is sure; an utterance that stops is another matter."""
     if not isinstance(event, Utterance):
@@ -262,7 +272,7 @@ def _is_unsure(event: Event, said: Mapping[str, Reading]) -> bool:
     if isinstance(reading, NotUnderstood):
         return True
     stopping = any("stop" in str(act.form) for act in reading)
-    return not stopping and (event.confidence == UNSURE or all(act.repaired is not None for act in reading))
+    return not stopping and (_is_hardly_heard(event) or all(act.repaired is not None for act in reading))
 
 
 def check_replay(

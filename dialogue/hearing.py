@@ -36,12 +36,12 @@ def hear(turn: Turn, event: Utterance) -> None:
         return
     if told := tuple(act.form for act in acts if act.function is not Function.QUESTION):
         turn.update(heard=told)
+    if event.confidence < _CONFIDENT:
+        acts = tuple(replace(act, repaired=act.repaired or event.text) for act in acts)
     acts = stop_first(acts, event.text, turn.lexicon, turn.session.moving)
     if acts[0].form == STOP and acts[0].function is Function.INSTRUCT:
         obey(turn, acts[:1], event.time_s)
         acts = acts[1:]
-    elif event.confidence < _CONFIDENT:
-        acts = tuple(replace(act, repaired=act.repaired or event.text) for act in acts)
     _do_acts(turn, acts, event.time_s)
 
 

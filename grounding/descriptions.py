@@ -119,11 +119,10 @@ def attachments(modifiers: tuple[Term, ...]) -> Iterator[tuple[Term, ...]]:
 
 
 def _nested(modifier: Term, inner: tuple[Term, ...]) -> Iterator[Term]:
+    landmark = modifier.args[-1] if modifier.args else None
     if not inner:
         yield modifier
-    elif modifier.pred != "not" and modifier.args and describe(modifier.args[-1]) is not None:
-        landmark = modifier.args[-1]
-        assert isinstance(landmark, Term)
+    elif modifier.pred != "not" and isinstance(landmark, Term) and landmark.args and describe(landmark) is not None:
         for chain in attachments(inner):
             yield replace(modifier, args=(*modifier.args[:-1], with_modifiers(landmark, chain)))
 

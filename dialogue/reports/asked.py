@@ -51,7 +51,10 @@ class Asked:
         """
         match resolve(form, self.world, self.lexicon):
             case Grounded(referents):
-                return tuple(each for each in referents if isinstance(each, Entity))
+                things = tuple(each for each in referents if isinstance(each, Entity))
+                if not things:  # a place or a heading
+                    raise Needs(Unresolved(Reason.NOTHING_FITS, form))
+                return things
             case Ambiguous(_, candidates):
                 return candidates
             case Unresolved() as failure:
