@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from voxml.terms import Unit
+
 from .known_words import KnownWords
 from .tokens import Token
 
 _CLAUSE_MAX = 16
 _LEAD_MAX = 8
+_ANGLE_MIN = 90.0  # such numbers are angles without their unit: "turn one eighty"
 
 
 class Abandoned:
@@ -62,6 +65,8 @@ class Abandoned:
             number = amounts.numbers.number(texts, index)
             if number is not None:
                 again = at + index - start
-                same = list(texts[start:index]) == list(texts[at:again])
-                return same and number[1] == at and amounts.amount(texts, again) is not None
+                amount = amounts.amount(texts, again)
+                if number[1] != at or list(texts[start:index]) != list(texts[at:again]) or amount is None:
+                    return False
+                return amount[0].quantity.unit is not Unit.DEGREE or number[0] < _ANGLE_MIN
         return False

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from .machine import Edge
-from .tokens import MARKS, Token
+from .tokens import FULL_STOPS, MARKS, Token
 from .word_edges import WordReader
 
 SEPARATORS = frozenset({"AND", "THEN", "BEFORE_THAT", "BUT"})
@@ -34,12 +34,18 @@ class Lattice:
         known = self._edges[at]
         if known is None:
             known = self._words.edges(self.texts, at)
-            if self.texts[at] in MARKS and (at in self._repeats(0) or self._repeats(at + 1)):
+            if self.texts[at] in MARKS and self._sets_apart(at):
                 known = tuple(edge for edge in known if edge.terminal is not None)
             if self._may_name:
                 known = (*known, *self._words.names.edges(self._tokens, at))
             self._edges[at] = known
         return known
+
+    def _sets_apart(self, at: int) -> bool:
+        """Whether the mark at ``at`` ends a clause: a full stop before a verb, any beside "twice" or "three times"."""
+        if self.texts[at] in FULL_STOPS and "VERB" in self.categories(at + 1):
+            return True
+        return at in self._repeats(0) or bool(self._repeats(at + 1))
 
     def _repeats(self, at: int) -> frozenset[int]:
         """Where a "twice" or "three times" ends that begins here: a mark beside it sets it off from a single clause."""

@@ -12,11 +12,10 @@ from enum import IntEnum
 
 from .editing import EditingTerms
 from .known_words import KnownWords
-from .tokens import MARKS, Token
+from .tokens import FULL_STOPS, MARKS, Token
 
 REPARANDUM_MAX = 24
 _PASSES_MAX = 3
-_FULL_STOPS = MARKS - {","}
 
 
 class Break(IntEnum):
@@ -101,7 +100,7 @@ class Restarts:
     def _is_given_up(self, texts: Sequence[str], again: Again) -> bool:
         """Whether the words were only begun, and are not to be done twice."""
         run = texts[again.start : again.at]
-        if run[0] in MARKS or not _FULL_STOPS.isdisjoint(run) or all(map(self._words.refuses, run)):
+        if run[0] in MARKS or not FULL_STOPS.isdisjoint(run) or all(map(self._words.refuses, run)):
             return False  # "no no" is more than "no"
         if again.length == 1 and self._words.is_number(run[0]):
             return again.broken > Break.NONE or self._is_number_repeated(texts, again.start, again.resume)

@@ -17,7 +17,8 @@ _TOKEN = re.compile(
 _QUOTES = str.maketrans({"\u2018": "'", "\u2019": "'", "\u201c": '"', "\u201d": '"', "\u2212": "-", "\u2013": "-"})
 _FRACTIONS = {"½": "1/2", "¼": "1/4", "¾": "3/4", "⅓": "1/3", "⅔": "2/3", "⅛": "1/8"}
 _PAUSES = frozenset({"...", "\u2026"})
-MARKS = frozenset({",", ";", ":", ".", "!", "?"})
+FULL_STOPS = frozenset({".", "!", "?"})
+MARKS = FULL_STOPS | {",", ";", ":"}
 
 
 @dataclass(frozen=True, slots=True)
