@@ -19,6 +19,7 @@ _NAMES_OF_THINGS = frozenset({"NOUN", "NOUNS"})
 _REFUSALS = frozenset({"NO", "NO_NO"})
 _COMPARED = frozenset({"ADJECTIVE", "ORDINAL"})
 _COUNTS = frozenset({"NUMBER", "CARDINAL", "QTY"})
+PHRASE_MAX = 8  # words
 _PASSED_OVER = Edge(None, None, 1)
 
 
@@ -37,7 +38,7 @@ class Neighbours:
         word = texts[at]
         if word in self._words.refusal_starts:
             found = tuple(edge for edge in found if not self._forbids(edge, texts, at))
-        if word not in self._delicate and self._words.of.isdisjoint(texts):
+        if word not in self._delicate and self._words.of.isdisjoint(texts[at + 1 : at + PHRASE_MAX]):
             return found
         if not at or texts[at - 1] in MARKS:
             return self._at_beginning(found, texts, at)
