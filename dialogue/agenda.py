@@ -17,7 +17,7 @@ from .turn import Turn
 from .wording import unmet
 
 _FREE = frozenset({State.IDLE, State.EXECUTING, State.PATROLLING})
-"""While Kirby asks, or the robot is paused or strayed, nothing begins by itself."""
+"""While Kirby asks, or the robot is paused or strayed or was told to stop, nothing begins by itself."""
 
 _ENDING = frozenset(
     Term("event", (Term("control", (Term(c.value.replace(" ", "_")),)),)) for c in (Control.CANCEL, Control.STOP_PATROL)
@@ -27,7 +27,8 @@ _ENDING = frozenset(
 def go_on(turn: Turn, time_s: float) -> None:
     """Look whether what is left can be done now."""
     agenda = turn.session.agenda
-    if agenda is None or turn.session.state not in _FREE:
+    stopping = any(task.command is Control.STOP for task in turn.session.tasks)
+    if agenda is None or turn.session.state not in _FREE or stopping:
         return
     deferred = agenda.deferred
     if deferred.condition.pred == ELAPSED:

@@ -22,7 +22,7 @@ from .turn import Turn
 from .wording import command_words, refused, unresolved
 
 _PASSING = frozenset({Control.STOP, Control.CONTINUE, Control.KEEP_GOING, Control.QUEUE, Control.TAKE_PICTURE})
-"""Commands that leave what is being done as it is, or take it up again."""
+"""Commands that leave what is being done as it is, or take it up again; a stop at rest ends what waits to begin."""
 
 _CLEARING = frozenset({Control.CANCEL, Control.CANCEL_ALL, Control.GO_BACK, Control.STOP_PATROL})
 """Commands that get out of the way what would keep the robot from a new movement."""
@@ -101,7 +101,7 @@ def _send(turn: Turn, made: Plan, acts: tuple[DialogueAct, ...]) -> None:
         question = Question(f"{offer.text} and {order}?", acts, commands=(offer.command,))
         turn.ask(Trigger.ASK_CONFIRMATION, question)
         return
-    if not set(made.commands) <= _PASSING:
+    if not set(made.commands) <= _PASSING or (Control.STOP in made.commands and not turn.session.moving):
         turn.update(agenda=None)
     if made.then is not None:
         turn.update(agenda=Agenda(made.then))

@@ -116,6 +116,24 @@ def test_nothing_begins_while_a_question_is_open() -> None:
     assert talk.say("no") == ["turn left 90"]
 
 
+def test_a_stop_ends_what_waits_to_begin() -> None:
+    talk = Talk()
+    talk.say("seq(wait(5s),turn(left))")
+    assert talk.say("stop") == ["stop"]
+    assert sent(talk.manager.handle(Tick(100.0))) == []
+
+
+def test_nothing_begins_between_a_stop_and_its_pause() -> None:
+    talk = Talk()
+    talk.say("until(see(the(fiducial,number(7))),patrol)")
+    talk.say("stop")
+    assert see(talk, GREEN) == []
+    talk.robot(FeedbackCode.PAUSED, "k2")
+    talk.say("continue")
+    talk.robot(FeedbackCode.RESTARTING, "k3")
+    assert see(talk, GREEN) == ["stop patrol"]
+
+
 def test_a_condition_that_cannot_be_told_is_refused() -> None:
     outputs = Talk().handle(Utterance("until(open(the(door)),go(forward))", 0.0))
     assert [type(output) for output in outputs] == [Say]
