@@ -130,8 +130,8 @@ def test_nothing_begins_between_a_stop_and_its_pause() -> None:
     assert see(talk, GREEN) == []
     talk.robot(FeedbackCode.PAUSED, "k2")
     talk.say("continue")
-    talk.robot(FeedbackCode.RESTARTING, "k3")
-    assert see(talk, GREEN) == ["stop patrol"]
+    going_on = RobotFeedback(feedback(FeedbackCode.RESTARTING, id="k3"), talk.time_s)
+    assert sent(talk.handle(going_on)) == ["stop patrol"]
 
 
 def test_a_condition_that_cannot_be_told_is_refused() -> None:
