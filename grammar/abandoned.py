@@ -37,13 +37,20 @@ class Abandoned:
     def _request(self, texts: Sequence[str], at: int) -> int | None:
         """Where a request began that begins anew at ``at``, at most one word later: "can you move can you turn"."""
         leads = self._words.leads
-        if not leads.length(texts, at) or self._words.joins(texts, at - 1) or self._words.denies(texts[at - 1]):
+        if not leads.length(texts, at) or self._words.joins(texts, at - 1) or self._forbidden(texts, at):
             return None
         for start in range(max(0, at - _LEAD_MAX), at - 1):
             length = leads.length(texts, start)
             if length > 1 and at - length - start in (0, 1):
                 return start
         return None
+
+    def _forbidden(self, texts: Sequence[str], at: int) -> bool:
+        """Whether a "not" or "never" stands before what may be said anew: that is not given up."""
+        return any(
+            self._words.denies(texts[before]) or self._words.forbids.length(texts, before)
+            for before in range(max(0, at - _LEAD_MAX), at)
+        )
 
     def _clause(self, texts: Sequence[str], at: int) -> int | None:
         """Where a clause began that still lacked its noun, or its unit, when its verb was said again at ``at``."""

@@ -34,6 +34,7 @@ class KnownWords:
         self.vocabulary = lexicon.vocabulary() - self.fillers | numbers
         self.amounts = amounts
         self.leads = FixedPhrases.of(closed, "LEAD")
+        self.forbids = FixedPhrases.of(closed, "FORBID")
         self._lexicon = lexicon
         self._sorted = sorted(self.vocabulary)
         self._joining = frozenset(closed.table("AND")) | frozenset(closed.table("THEN"))

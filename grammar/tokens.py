@@ -48,8 +48,14 @@ class Tokenizer:
             written = text[start:end]
             word = "minus" if word == "-" else _FRACTIONS.get(word, word)
             parts = self._contractions.get(word)
-            if parts is None or ("'" not in word and spoken.startswith(word, end + 1)):  # "im image" is cut off
+            if parts is None or (_begins_next(word, spoken, end) and not parts[0].startswith(word)):
                 tokens.append(Token(word, start, end, written))
             else:
                 tokens.extend(Token(part, start, end, written) for part in parts)
         return tokens
+
+
+def _begins_next(word: str, spoken: str, end: int) -> bool:
+    """Whether the word that ends there is the beginning of the next: "(take an) im image" has no "i'm"."""
+    rest = end + 1 + len(word)
+    return spoken.startswith(word, end + 1) and spoken[rest : rest + 1].isalpha()
