@@ -73,7 +73,7 @@ class Search:
 
     def _may_precede(self, clause: Clause, following: Clause) -> bool:
         """Whether another clause may follow this one: where nothing sets them apart, only behind what is to be done."""
-        if self._lends_condition(clause, following):
+        if self._lends_condition(clause, following) or self._reaches_over(clause, following):
             return False
         if following.start > clause.end:
             return True
@@ -82,6 +82,13 @@ class Search:
         if clause.function is Function.DENY:
             return self._lattice.is_reply(clause.start)
         return clause.function not in _STATING
+
+    def _reaches_over(self, clause: Clause, following: Clause) -> bool:
+        """Whether what is denied or asked goes on behind "and": "don't go forward and turn left" orders nothing."""
+        if not isinstance(clause.form, Term) or clause.form.pred not in ("not", "can"):
+            return False
+        joined = following.start == clause.end + 1 and "AND" in self._lattice.categories(clause.end)
+        return joined and following.function is Function.INSTRUCT
 
     def _lends_condition(self, clause: Clause, following: Clause) -> bool:
         """Whether a condition at the end is rather that of the next clause: "go on, when you get there turn around"."""
