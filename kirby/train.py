@@ -35,7 +35,7 @@ def run_train(what: str, out: Path | None) -> None:
 
 def _table(trained: Trained) -> Table:
     table = Table(
-        "held-out sentences", "orders", "label right", "proposed", "of these right", "no orders", "proposed too",
+        "held out", "orders", "label right", "proposed", "of these right", "others", "proposed", "stopped for",
         title=f"Orders with an unknown verb; asked about where surer than {trained.model.classes.threshold:.0%}",
     )  # fmt: skip
     for source, scores in trained.scores.items():
@@ -47,5 +47,6 @@ def _table(trained: Trained) -> Table:
             f"{scores.precision:.1%}",
             str(scores.other),
             f"{scores.false_share:.1%}",
+            str(scores.stopped),
         )
     return table

@@ -24,7 +24,7 @@ SAMPLES = 6_000
 SAMPLED_WORDS_MAX = 9
 PER_LABEL_MAX = 400  # sampled sentences of one label: those of a rare verb must not drown
 TEST_SHARE = 0.1
-DEV_SHARE = 0.1
+DEV_SHARE = 0.15
 _SUBJECTS = (
     "he", "she", "they", "we", "i", "it", "nobody", "somebody", "people", "the robot", "a man", "the {}", "a {}",
     "my {}", "the {} {}", "his {}", "i just", "he just", "i would", "she will", "they always", "why did it",
