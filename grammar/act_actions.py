@@ -12,6 +12,7 @@ from .tables import Action
 Act = tuple[Function, Form]
 _AGAIN = Term("again")
 _STOP = Term("stop")
+_WITH_MORE = (Term("go"), Term("turn"), Term("come_here"))
 _GOING_ON = (Term("go"), Term("keep_going"), Term("continue"))
 
 
@@ -58,6 +59,13 @@ def _until(condition: Form, core: Form) -> Form:
     return Term("until", (condition, core))
 
 
+def _whole(form: Form) -> Form:
+    """What is to be done, if it is all that was said of it: "when you come back" does not end behind "come"."""
+    if form in _WITH_MORE:
+        raise Refused("something else to do")
+    return form
+
+
 def _sequence(first: Form, second: Form) -> Form:
     return Term("seq", (first, second))
 
@@ -99,10 +107,10 @@ COMMAND_ACTIONS: dict[str, Action] = {
     "until": lambda core, marker, condition: _until(condition, core),
     "until_first": lambda marker, condition, core: _until(condition, core),
     "until_first_marked": lambda marker, condition, mark, core: _until(condition, core),
-    "before_first": lambda before, later, core: _sequence(core, later),
+    "before_first": lambda before, later, core: _sequence(core, _whole(later)),
     "before_first_marked": lambda before, later, mark, core: _sequence(core, later),
     "before_last": lambda core, before, later: core if core == _STOP else _sequence(core, later),
-    "after_first": lambda after, first, core: _sequence(first, core),
+    "after_first": lambda after, first, core: _sequence(_whole(first), core),
     "after_first_marked": lambda after, first, mark, core: _sequence(first, core),
     "after_last": lambda core, after, first: _sequence(first, core),
     "naming": lambda call, what, name: Term("name", (what, name)),

@@ -20,7 +20,24 @@ ASKING = (
 )
 TELLING = (
     *("it would be bad to", "he told me to", "you never", "i might", "they want me to", "nobody said to", "i will"),
-    *("i want to", "she asked him to", "the sign says", "i saw it", "you always"),
+    *(
+        "i want to",
+        "she asked him to",
+        "the sign says",
+        "i saw it",
+        "you always",
+        "when you",
+        "before you",
+        "after you",
+    ),
+    *(
+        "instead of letting you",
+        "as you",
+        "because you",
+        "someone should",
+        "the other robot should",
+        "remember when you",
+    ),
 )
 
 
