@@ -118,7 +118,7 @@ class Guesser:
 
     def _asks_for(self, text: str, pred: str) -> bool:
         """Whether the text is one instruction to carry out the program, without a slip of the tongue."""
-        acts = self._reader.read(text) if self._reader.is_fluent(text) else None
+        acts = self._reader.read(text, thorough=False) if self._reader.is_fluent(text) else None
         if not isinstance(acts, tuple) or len(acts) != 1 or acts[0].function is not Function.INSTRUCT:
             return False
         return head_program(acts[0].form, self._lexicon) == pred
@@ -129,7 +129,7 @@ class Guesser:
         return bool(words) and not words[0].known
 
     def _is_order(self, text: str) -> bool:
-        acts = self._reader.read(text)
+        acts = self._reader.read(text, thorough=False)
         return isinstance(acts, tuple) and all(act.function is Function.INSTRUCT for act in acts)
 
     def _clauses(self, text: str) -> list[str]:

@@ -44,12 +44,15 @@ class Reader:
             word.value for name in _LEADING for word in lexicon.closed.words_of(name) if word.value is not None
         )
 
-    def read(self, text: str) -> tuple[DialogueAct, ...] | NotUnderstood:
-        """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood."""
+    def read(self, text: str, thorough: bool = True) -> tuple[DialogueAct, ...] | NotUnderstood:
+        """Every act of the utterance in order, or where it went wrong. An utterance without words is not understood.
+
+        ``thorough`` is for what people say; what is only tried out must make sense at once.
+        """
         if len(text) > TEXT_MAX_CHARS:
             return NotUnderstood((TEXT_MAX_CHARS, len(text)), (f"at most {TEXT_MAX_CHARS} characters",))
         failure = None
-        for tokens, corrects, machine in self._attempts(tuple(self._tokenizer(text))):
+        for tokens, corrects, machine in self._attempts(tuple(self._tokenizer(text)), thorough):
             search = Search(self.lattice(tokens), machine, self._leading)
             clauses = search.clauses()
             if clauses:
@@ -59,10 +62,12 @@ class Reader:
         assert failure is not None
         return failure
 
-    def _attempts(self, said: tuple[Token, ...]) -> Iterator[tuple[tuple[Token, ...], bool, Machine]]:
+    def _attempts(self, said: tuple[Token, ...], thorough: bool) -> Iterator[tuple[tuple[Token, ...], bool, Machine]]:
         """The words to read, whether they correct, and what reads them: each where nothing came of the one before."""
         cleaned, corrects = self._fluency.clean(said)
         yield cleaned, corrects, self._machine
+        if not thorough:
+            return
         yield cleaned, corrects, self._thorough_machine
         fewer = self._fluency.cleaned_again(cleaned)
         if fewer != cleaned:
