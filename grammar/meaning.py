@@ -45,7 +45,7 @@ class Meaning(VerbActions):
         said = self.verbless(args)
         if said is not None:
             return Function.INSTRUCT, said
-        if len(args) != 1 or args[0].kind is Kind.OF:
+        if len(args) != 1 or args[0].kind in (Kind.OF, Kind.EVENT):
             raise Refused("a verb")
         arg = args[0]
         return Function.FRAGMENT, Term("repeat", (arg.form,)) if arg.kind is Kind.REPEAT else arg.form

@@ -74,6 +74,8 @@ class Neighbours:
             return (_PASSED_OVER, *found)  # "find me a chair"
         if word in words.addresses and not after and before not in words.before_robots:
             return (_PASSED_OVER, *found)  # "face north, robot"
+        if word in words.addresses and before in words.determiners - words.refusals:  # who is told of is not spoken to
+            found = tuple(edge for edge in found if edge.terminal is not None)
         if word in words.intensifiers and before in words.nouns and after in words.places:
             return (_PASSED_OVER, *found)  # "the box right behind you"
         if word in words.ones and before in words.sides:

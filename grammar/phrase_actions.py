@@ -38,6 +38,13 @@ def _path_point(relation: Form, x: Quantity, y: Quantity) -> Arg:
     return Arg(Kind.PATH, Term(pred_of(relation), (point,)))
 
 
+def _path_axis(relation: Form, axis: Form) -> Arg:
+    """ "toward the back"; "to back" rather begins "to back up"."""
+    if pred_of(relation) == "to":
+        raise Refused("a thing or place")
+    return Arg(Kind.AXIS, axis)
+
+
 def _event(readings: tuple[Reading, ...]) -> Arg:
     return Arg(Kind.EVENT, Term("event"), readings)
 
@@ -83,7 +90,7 @@ ARGUMENT_ACTIONS: dict[str, Action] = {
     "path_alone": _path_alone,
     "path_point": _path_point,
     "path_place": lambda relation, place: Arg(Kind.PATH, Term(pred_of(relation), (place,))),
-    "path_axis": lambda relation, axis: Arg(Kind.AXIS, axis),
+    "path_axis": _path_axis,
     "place": _arg(Kind.PLACE),
     "location": lambda relation, place: Arg(Kind.LOCATION, phrases.relation(relation, place)),
     "facing": lambda facing, what: Arg(Kind.FACING, Term("facing", (what,))),

@@ -15,6 +15,7 @@ from .phrases import pred_of
 
 REPEATS_MAX = 20
 DEGREES_ALONE_MIN = 45
+_GOING = frozenset({"go", "turn"})
 _DIRECTIONS = (Kind.AXIS, Kind.SIDE, Kind.HEADING)
 _VERBLESS = ("turn", "go", "sidestep")  # what arguments alone can mean
 _LED = ("go", "turn")  # what they mean behind "can you"
@@ -71,6 +72,8 @@ class VerbActions:
     def verbless(self, args: Args) -> Form | None:
         """What arguments without a verb say all of: a side with an angle, a way with a distance, two pictures."""
         event = next((arg for arg in args if arg.kind is Kind.EVENT), None)
+        if event is not None and event.readings[0].entry.lex.pred in _GOING:
+            return None  # "the robot moves" is nobody's order
         if event is not None:
             rest = tuple(arg for arg in args if arg.kind is not Kind.EVENT)
             looking = self._looking(event.readings, rest)
