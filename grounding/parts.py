@@ -36,7 +36,11 @@ _SIDES = {
 
 
 def whole_of(description: Description) -> Term | None:
-    """The noun phrase of what a part belongs to: ``the(table)`` in ``the(left(side),of(the(table)))``."""
+    """The noun phrase of what a part belongs to: ``the(table)`` in ``the(left(side),of(the(table)))``, ``it`` in
+    ``its(left(side))``.
+    """
+    if description.noun in PARTS and description.determiner == "its":
+        return Term("it")
     wholes = (m.args[0] for m in description.modifiers if m.pred == "of" and len(m.args) == 1)
     whole = next(wholes, None) if description.noun in PARTS or description.ordering == "middle" else None
     return whole if isinstance(whole, Term) else None
