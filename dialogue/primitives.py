@@ -172,6 +172,8 @@ class Draft:
 
     def _goals(self, form: Term) -> tuple[Point | Entity, ...]:
         """The place to be at, or the things to stand before."""
+        if not form.args:
+            raise Stops(Refused(Refusal.WRONG_ARGUMENT, form))
         (goal,) = form.args
         if goal in (Term("here"), Term("to", (Term("here"),))):
             # To come here is to come to the speaker, whose place is not known.

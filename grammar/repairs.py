@@ -78,7 +78,7 @@ class Repairs:
         fluent = at
         while fluent and texts[fluent - 1] in MARKS:
             fluent -= 1
-        if self._words.begins_clause(texts, end) and not self._is_direction(texts, end):
+        if fluent and self._words.begins_clause(texts, end) and not self._is_direction(texts, end):
             begun = self._clause_start(texts[:fluent], texts[end:])
             return [*tokens[:begun], *tokens[end:]] if self._words.is_to_do(texts[begun:fluent]) else None
         start = self._counterpart(texts[:fluent], self._words.kind(texts, end))

@@ -64,3 +64,8 @@ def acts_form(text: str) -> object:
     from grammar import parse_form
 
     return parse_form(text)
+
+
+@pytest.mark.parametrize("text", ["!!h\ufffdno\ufffd! tbvq", ".no go", "! no, turn left", ", i mean go forward"])
+def test_a_repair_of_nothing_raises_nothing(text: str) -> None:
+    parse(text)

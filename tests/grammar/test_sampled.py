@@ -9,6 +9,7 @@ from grammar import parse
 from grammar.explain import Explainer
 from grammar.reader import Reader
 from grammar.sampling import Sampler
+from kirby import understand
 from voxml.terms import parse_form
 from voxml.vocabulary import load_lexicon
 
@@ -62,3 +63,8 @@ def test_an_explanation_names_the_words_that_were_read_and_the_rules() -> None:
     leaves = [[(leaf.label, leaf.words) for leaf in tree.leaves()] for tree in explained.trees]
     assert leaves[0] == [("VERB", "turn"), ("SIDE", "right")]
     assert leaves[1][-1] == ("EVENT", "picture")
+
+
+def test_to_lead_short_of_somebody_is_refused_in_words() -> None:
+    record = understand("lead short of me")
+    assert (record["commands"] or [], bool(record["reason"])) == ([], True)
