@@ -23,15 +23,31 @@ class Completer:
         Amounts are not taken over: "turn left ten degrees and right" says of the right turn no more than that.
         """
         match before, fragment:
-            case Term("seq", (*_, last)), _:
-                return self.completed(last, fragment)
+            case Term("seq", (*_, turning, last)), _:
+                done = self.completed(last, fragment)
+                turned = self._turned(turning, fragment) if done is None else None
+                return done if turned is None else Term("seq", (turned, last))
             case Term() as program, Term("again", (changed,)):  # "a left and another left"
                 return self._with(program, changed)
             case Term() as program, Term("again", ()):
                 return program
             case Term() as program, _:
-                return self._with(program, fragment)
+                done = self._with(program, fragment)
+                return Term("turn", (fragment,)) if done is None and self._turns(program, fragment) else done
         return None
+
+    def _turned(self, turning: Form, where: Form) -> Form | None:
+        """ "pictures to the north and south", "to your left and right": from one side to the other is half a turn."""
+        match turning:
+            case Term("turn", (side,)) if side != where and self._kind(side) == self._kind(where) == "SIDE":
+                return Term("turn_around")
+            case Term("face"):
+                return self._with(turning, where)
+        return None
+
+    def _turns(self, program: Term, fragment: Form) -> bool:
+        """Whether a side behind the program is a turn: "go forward ten feet and right"."""
+        return self._kind(fragment) == "SIDE" and program.pred == "go"
 
     def _with(self, program: Term, part: Form) -> Form | None:
         kind = self._kind(part)

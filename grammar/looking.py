@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from voxml.terms import Form, Term
+from voxml.terms import Form, Quantity, Term, Unit
 
 from .arguments import Arg, Kind, head_noun
-from .phrases import YOU
+from .phrases import YOU, ahead
 
 _SIDES = (Term("left"), Term("right"))
 _BEHIND = Term("behind", (YOU,))
@@ -28,6 +28,21 @@ def turning_to(arg: Arg, headings: frozenset[Form]) -> Form | None:
         case Kind.LOCATION, place:
             return _turning(place, headings)
     return None
+
+
+def seen_at(arg: Arg) -> Arg:
+    """What is seen straight ahead, or at a place, of what was said about where: "a picture in front of you"."""
+    match arg.kind, arg.form:
+        case Kind.AXIS, way:
+            return Arg(Kind.OF, Term("of", (ahead(way),)))
+        case (Kind.PLACE, place) | (Kind.LOCATION, Term("in_front_of", (Term("you"),)) as place):
+            return Arg(Kind.OF, Term("of", (place,)))
+    return arg
+
+
+def is_angle(arg: Arg) -> bool:
+    """Whether the argument says by how much to turn."""
+    return arg.kind is Kind.QUANTITY and isinstance(arg.form, Quantity) and arg.form.unit is Unit.DEGREE
 
 
 def _turning(place: Form, headings: frozenset[Form]) -> Form | None:

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from .amounts import AmountReader
 from .tokens import Token
 
+_EVEN = 1e-6  # of the ratio of two amounts
+
 
 def without_replaced_amounts(tokens: list[Token], amounts: AmountReader) -> list[Token]:
     """The tokens without each amount right behind which the same number, or one of the same dimension, stands."""
@@ -32,8 +34,19 @@ def _replacement(texts: Sequence[str], at: int, amounts: AmountReader) -> int | 
     start = number[1] + 1 if amounts.is_unit(texts[number[1]]) else number[1]
     again = numbers.number(texts, start) if start > number[1] else None
     if again is not None and again[0] == number[0]:
-        return start
+        return None if _is_one_amount(texts, at, start, amounts) else start
     return _same_dimension(texts, at, amounts)
+
+
+def _is_one_amount(texts: Sequence[str], at: int, second: int, amounts: AmountReader) -> bool:
+    """Whether the amount at ``at`` has its smaller unit at ``second``: "six feet six inches", but not "five steps,
+    five feet", which does not come out even.
+    """
+    whole, part = amounts.amount(texts, at), amounts.amount(texts, second)
+    if whole is None or part is None or whole[1] <= second or not part[0].quantity.value:
+        return False
+    ratio = whole[0].quantity.value / part[0].quantity.value
+    return abs(ratio - round(ratio)) < _EVEN
 
 
 def _same_dimension(texts: Sequence[str], at: int, amounts: AmountReader) -> int | None:

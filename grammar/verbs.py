@@ -8,7 +8,7 @@ from voxml.terms import Form, Quantity, Term
 from voxml.vocabulary import Lexicon, Reading
 
 from .arguments import Arg, Args, ArgumentFitter, Kind
-from .looking import turning_to
+from .looking import is_angle, seen_at, turning_to
 from .machine import Refused
 from .phrase_actions import of_place
 from .phrases import pred_of
@@ -35,6 +35,8 @@ class VerbActions:
         rest = tuple(arg for arg in args if arg.kind is not Kind.EVENT)
         if any(each.readings != events[0].readings for each in events):
             raise Refused("one thing to do")
+        if events and isinstance(readings, tuple) and _is_next(args):
+            return Term("seq", (self._fitter.program(readings, rest), self._done(None, events[0], ())))
         if events and isinstance(readings, tuple) and not _may_be_object(args):
             raise Refused("the end")
         if events:
@@ -96,6 +98,10 @@ class VerbActions:
         """ "show me what is behind you"."""
         return self._done(None, Arg(Kind.EVENT, show, self._readings(pred_of(show))), (of_place(args),))
 
+    def shown_side(self, show: Form, side: Form) -> Form:
+        """ "show me your left"."""
+        return self._done(None, Arg(Kind.EVENT, show, self._readings(pred_of(show))), (Arg(Kind.SIDE, side),))
+
     def shown_view(self, show: Form, view: Form) -> Form:
         """ "show me what you see"."""
         return self._done(
@@ -121,6 +127,8 @@ class VerbActions:
         meant = {reading.entry.lex.pred for reading in event.readings}
         if isinstance(verb, tuple) and meant.isdisjoint(reading.entry.lex.pred for reading in verb):
             return self._about(verb, event, args)
+        if any("of" in slot.markers for reading in event.readings for slot in reading.entry.args):
+            args = tuple(seen_at(arg) for arg in args)
         looking = self._looking(event.readings, args)
         if looking is not None:
             return looking
@@ -147,7 +155,11 @@ class VerbActions:
         if len(turnings) != 1 or turns:
             return None
         where, turning = turnings[0]
-        return Term("seq", (turning, self._fitter.program(event, tuple(arg for arg in args if arg is not where))))
+        rest = tuple(arg for arg in args if arg is not where)
+        if where.kind is Kind.SIDE and (amount := next((arg for arg in rest if is_angle(arg)), None)) is not None:
+            turning = Term("turn", (where.form, amount.form))  # "a picture ten degrees to your left"
+            rest = tuple(arg for arg in rest if arg is not amount)
+        return Term("seq", (turning, self._fitter.program(event, rest)))
 
     def _readings(self, *preds: str) -> tuple[Reading, ...]:
         return tuple(Reading(self._lexicon.programs[pred]) for pred in preds)
@@ -165,6 +177,12 @@ def _may_be_object(args: Args) -> bool:
     """Whether an event noun stands where its verb's object does: "turn a ten degree angle", not "turn left, pivot"."""
     at = next(at for at, arg in enumerate(args) if arg.kind is Kind.EVENT)
     return at == 0 or args[at - 1].kind in (Kind.QUANTITY, Kind.NUMBER)
+
+
+def _is_next(args: Args) -> bool:
+    """Whether an event noun at the end is the next thing to do: "turn left forty degrees, photo"."""
+    event = args[-1]
+    return len(args) > 1 and event.kind is Kind.EVENT and event.readings[0].entry.lex.pred not in _GOING
 
 
 def _is_small(arg: Arg) -> bool:
