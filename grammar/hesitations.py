@@ -62,6 +62,8 @@ class Hesitations:
             return False
         if self._words.is_number(after[0]):
             return False
+        if any(before[start : start + 2] == after[:2] for start in range(len(before) - 1)):
+            return True  # "turn right ninety er turn right eighty"
         alike = self._words.kinds(before, len(before) - 1) & self._words.kinds(after, 0)
         return not alike <= {"VERB"}
 

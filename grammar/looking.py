@@ -33,7 +33,7 @@ def turning_to(arg: Arg, headings: frozenset[Form]) -> Form | None:
 def seen_at(arg: Arg) -> Arg:
     """What is seen straight ahead, or at a place, of what was said about where: "a picture in front of you"."""
     match arg.kind, arg.form:
-        case Kind.AXIS, way:
+        case Kind.AXIS, Term("forward") as way:
             return Arg(Kind.OF, Term("of", (ahead(way),)))
         case (Kind.PLACE, place) | (Kind.LOCATION, Term("in_front_of", (Term("you"),)) as place):
             return Arg(Kind.OF, Term("of", (place,)))
