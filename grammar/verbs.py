@@ -127,7 +127,7 @@ class VerbActions:
         meant = {reading.entry.lex.pred for reading in event.readings}
         if isinstance(verb, tuple) and meant.isdisjoint(reading.entry.lex.pred for reading in verb):
             return self._about(verb, event, args)
-        if any("of" in slot.markers for reading in event.readings for slot in reading.entry.args):
+        if _is_of_something(event.readings):
             args = tuple(seen_at(arg) for arg in args)
         looking = self._looking(event.readings, args)
         if looking is not None:
@@ -156,7 +156,8 @@ class VerbActions:
             return None
         where, turning = turnings[0]
         rest = tuple(arg for arg in args if arg is not where)
-        if where.kind is Kind.SIDE and (amount := next((arg for arg in rest if is_angle(arg)), None)) is not None:
+        amount = next((arg for arg in rest if is_angle(arg)), None)
+        if amount is not None and where.kind is Kind.SIDE and _is_of_something(event):
             turning = Term("turn", (where.form, amount.form))  # "a picture ten degrees to your left"
             rest = tuple(arg for arg in rest if arg is not amount)
         return Term("seq", (turning, self._fitter.program(event, rest)))
@@ -183,6 +184,11 @@ def _is_next(args: Args) -> bool:
     """Whether an event noun at the end is the next thing to do: "turn left forty degrees, photo"."""
     event = args[-1]
     return len(args) > 1 and event.kind is Kind.EVENT and event.readings[0].entry.lex.pred not in _GOING
+
+
+def _is_of_something(event: tuple[Reading, ...]) -> bool:
+    """Whether what is done is done of a thing or place, as a picture is."""
+    return any("of" in slot.markers for reading in event for slot in reading.entry.args)
 
 
 def _is_small(arg: Arg) -> bool:
