@@ -41,7 +41,7 @@ class Hesitations:
         return self._amounts_closed(kept), frozenset(after_pauses)
 
     def is_filled_pause(self, word: str) -> bool:
-        """ "uh", "errr", "hmm"; not "mm", which are millimetres where a number of them is written."""
+        """ "uh", "errr", "hmm"; "mm" is one too, unless it closes an amount."""
         if word in self._words.fillers:
             return True
         return not self._words.is_word(word) and len(word) > 1 and _DOUBLED.sub(r"\1", word) in self._filled
@@ -50,9 +50,16 @@ class Hesitations:
         word = texts[at]
         if not self.is_filled_pause(word) or self._words.begins_phrase(texts, at, length=2):
             return False
-        if at and self._words.is_unit(word) and texts[at - 1][-1].isdigit():
+        if at and self._words.is_unit(word) and self._closes_amount(texts, at):
             return False
         return not (word in self.editing and self._may_repair(texts, at))
+
+    def _closes_amount(self, texts: Sequence[str], at: int) -> bool:
+        """Whether what may be a pause is the unit: "ten mm", but not "ten mm feet"."""
+        if texts[at - 1][-1].isdigit():
+            return True
+        following = next((text for text in texts[at + 1 :] if not self.is_filled_pause(text)), "")
+        return self._words.is_number(texts[at - 1]) and not self._words.is_unit(following)
 
     def _may_repair(self, texts: Sequence[str], at: int) -> bool:
         """Whether "er" may be an editing term, as in "left er right"; "back er up" is one verb, and numbers add up."""
