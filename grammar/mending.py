@@ -47,5 +47,5 @@ class Mender:
         return guessed or replace(failure, nearest=self._nearest(text, failure.span))
 
     def _is_one_request(self, text: str) -> bool:
-        reading = self._read(text)
+        reading = self._read(text, thorough=False)
         return isinstance(reading, tuple) and len(reading) == 1 and reading[0].function in _REQUESTS
