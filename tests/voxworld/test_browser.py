@@ -138,7 +138,7 @@ def test_gesture_buttons_names_and_errands(voxworld: VoxWorld, host: RecordingHo
     page = visit(voxworld.url)
     page.get_by_text("Gestures").click()
     page.get_by_role("button", name="thumbs up").click()
-    assert next_said(host, Gesture) == Gesture(GestureKind.THUMBS_UP, 1.0, "Guest")
+    assert next_said(host, Gesture) == Gesture(GestureKind.THUMBS_UP, 1.0, "Guest", at_view=True)
     page.get_by_text("Things found").click()
     name = page.locator("form input").nth(1)
     name.fill("Rosie")
