@@ -9,7 +9,7 @@
   more than one period after it was due. Beside them runs a bare loop that only sleeps until its next period is due:
   what it misses, the machine was too busy for.
 
-Run as ``python -m benchmarks.bridge [--json]``.
+Run as ``kirby bench bridge [--json]``.
 """
 
 from __future__ import annotations

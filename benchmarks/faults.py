@@ -7,7 +7,7 @@
   keys deleted, keys made into other types, and the robot's record spoilt by hand. The robot must not end, must obey
   afterwards, and its memory and Redis' must not grow.
 
-Run as ``python -m benchmarks.faults [--json]``.
+Run as ``kirby bench faults [--json]``.
 """
 
 from __future__ import annotations

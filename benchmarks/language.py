@@ -5,12 +5,11 @@ The sentences are the gold commands of SCOUT where that corpus is at hand (the f
 that must get at least 90 % of the gold commands right, so that it is no straw man. The three take turns sentence by
 sentence, and each time is the median of several; of long sentences it is the least, since a busy machine only adds.
 
-Run as ``python -m benchmarks.language [--json]``.
+Run as ``kirby bench language [--json]``.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import os
 import statistics
@@ -39,7 +38,7 @@ _BESIDE = Path(__file__).resolve().parents[2] / "shared" / "data" / "scout"
 
 
 def run(sentences_max: int = SENTENCES_MAX, rounds: int = ROUNDS) -> dict[str, Any]:
-    """The figures, as ``kirby bench language --json`` prints them. Times are microseconds a sentence."""
+    """The figures. Times are microseconds a sentence."""
     gold = _gold()
     texts = [text for text, _ in gold][:sentences_max] or _plain()[:sentences_max]
     hassil, reader = Hassil(), Reader(load_lexicon())
@@ -152,15 +151,3 @@ class _Floor:
             self._known[text] = [self._token(leaf.label, leaf.words) for leaf in leaves] or None
         tokens = self._known[text]
         return _PASS if tokens is None else self._parser.parse(tokens)
-
-
-def main() -> None:
-    """Print the figures."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--json", action="store_true", help="one JSON object")
-    figures = run()
-    print(json.dumps(figures) if parser.parse_args().json else "\n".join(f"{k:32} {v}" for k, v in figures.items()))
-
-
-if __name__ == "__main__":
-    main()

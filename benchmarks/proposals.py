@@ -3,13 +3,11 @@
 The model is trained first, as ``kirby train language`` does; the sentences are hand-written and none of them is in what
 it learns from. What the grammar reads or repairs by itself is counted apart: no model is asked about it.
 
-Run as ``python -m benchmarks.proposals [--json]``.
+Run as ``kirby bench proposals [--json]``.
 """
 
 from __future__ import annotations
 
-import argparse
-import json
 import statistics
 import sys
 import time
@@ -62,19 +60,3 @@ def _outcome(acts: tuple[DialogueAct, ...] | NotUnderstood, form: str | None) ->
 
 def _asked(acts: tuple[DialogueAct, ...] | NotUnderstood) -> str:
     return "" if isinstance(acts, NotUnderstood) else acts[0].repaired or str(acts[0].form)
-
-
-def main() -> None:
-    """Print the figures."""
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
-    parser.add_argument("--json", action="store_true", help="one JSON object")
-    figures = run()
-    if parser.parse_args().json:
-        print(json.dumps(figures))
-        return
-    for name, value in figures.items():
-        print(f"{name:20}", value if not isinstance(value, list) else "\n  " + "\n  ".join(value))
-
-
-if __name__ == "__main__":
-    main()

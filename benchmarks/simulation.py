@@ -5,7 +5,7 @@ picture; the other makes only the same pybullet calls, with their arguments comp
 control, the laser's rays and the camera's pictures. Both start from the same state of the same world and take turns, so
 that a noisy machine slows both; the figures are medians over the rounds.
 
-Run as ``python -m benchmarks.simulation [--json]``.
+Run as ``kirby bench simulation [--json]``.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ from rapidfuzz import fuzz, process
 from voxml.vocabulary import Lexicon
 
 SCORE_MIN = 72.0
-MENDED_MAX_CHARS = 80
+PROPOSED_MAX_CHARS = 80
 
 
 class Nearest:
@@ -34,7 +34,7 @@ class Nearest:
         """The text with a word of Kirby's where a strange one stands: "find the door" for "find the dodecahedron"."""
         start, end = span
         strange = text[start:end].lower()
-        if strange in self._known or not strange.isalpha() or len(text) > MENDED_MAX_CHARS:
+        if strange in self._known or not strange.isalpha() or len(text) > PROPOSED_MAX_CHARS:
             return None
         words = sorted(self._stand_ins, key=lambda word: word[-1] != strange[-1])  # "doors" for "unicorns"
         proposed = (f"{text[:start]}{word}{text[end:]}" for word in words)
