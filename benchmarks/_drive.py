@@ -17,6 +17,7 @@ from robot.sightings import Markers
 from voxml.scene import Scene, find_scene
 
 WORLDS = ("figure3", "apartment", "corridor", "lab", "maze", "hall")
+WITH_CAMERA = ("hall",)  # where the laser is often out of reach of everything and markers tell the robot where it is
 _BLIND_HZ = 0.0  # one picture at the start and no more: where markers play no part, nothing is drawn
 
 

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from robot.geometry import wrap_angle
 
 from ._course import Course
-from ._drive import WORLDS, Driver, driver, progress, world
+from ._drive import WITH_CAMERA, WORLDS, Driver, driver, progress, world
 
 DISTANCE_M = 200.0
 LEG_LIMIT_S = 600.0
@@ -33,7 +33,7 @@ def _drive(name: str, distance_m: float, seed: int) -> dict[str, float]:
     scene = world(name)
     course = Course(scene, random.Random(f"{name} {seed}"))
     errors: list[tuple[float, float]] = []
-    with driver(scene, seed=seed) as drive:
+    with driver(scene, seed=seed, camera=name in WITH_CAMERA) as drive:
         while drive.driven_m < distance_m:
             drive.go_to(course.anywhere().point, LEG_LIMIT_S)
             errors.append(_error(drive))

@@ -22,7 +22,7 @@ import shapely
 from robot.geometry import Point, Pose, Segment
 from robot.mapping.walls import Wall, merge, merge_segments, mismatch_m
 
-from ._drive import WORLDS, driver, progress, world
+from ._drive import WITH_CAMERA, WORLDS, driver, progress, world
 from ._truth import SAMPLE_M, Faces, Seen, solid_of
 
 NEAR_M = 0.05
@@ -51,7 +51,7 @@ def patrol(name: str, seconds: float) -> dict[str, float]:
     scene = world(name)
     faces = Faces.of(scene)
     seen = Seen(faces)
-    with driver(scene) as drive:
+    with driver(scene, camera=name in WITH_CAMERA) as drive:
         seen.look(drive.body.truth())
         trip = drive.send("patrol", seconds, seen.look)
         segments = drive.robot.mapper.segments()

@@ -24,12 +24,11 @@ import numpy as np
 
 from robot.body import Scan
 from robot.geometry import Pose
-from robot.mapping import Mapper
 from robot.messages import FeedbackCode
 from voxml.scene import Scene
 
 from ._course import Course, Task
-from ._drive import WORLDS, Trip, driver, progress, world
+from ._drive import WITH_CAMERA, WORLDS, Trip, driver, progress, world
 from ._explorer import explored_m
 from ._truth import Faces, laser_scan
 
@@ -39,7 +38,6 @@ LIMIT_S = 1800.0
 SURVEY_SCANS = 4
 SURVEY_PERIOD_S = 0.25
 RATIO_MAX = 1.15
-WITH_CAMERA = ("hall",)  # where the laser is often out of reach of everything and markers tell the robot where it is
 NO_WAY = {FeedbackCode.UNREACHABLE, FeedbackCode.STRAYED}
 
 
@@ -93,7 +91,7 @@ class Place:
         seed = self._seed * 1000 + number
         with driver(self._scene, start=task.start, seed=seed, camera=self._scene.name in WITH_CAMERA) as drive:
             if known:
-                self._survey(drive.robot.mapper)
+                drive.robot.survey(self._views or self._look_around())
             begun = drive.body.truth()
             trip = drive.go_to(task.goal, LIMIT_S)
             here = drive.body.truth()
@@ -118,12 +116,8 @@ class Place:
             explored_m=round(explored_m(self._faces, begun.point, here.point), 3) if counted and not known else None,
         )
 
-    def _survey(self, mapper: Mapper) -> None:
-        """Make the map known: scans with the laser's noise from all over, entered where they were truly taken."""
-        for pose, scan in self._views or self._look_around():
-            mapper.update(pose, scan)
-
     def _look_around(self) -> list[tuple[Pose, Scan]]:
+        """Scans with the laser's noise from all over the world, and where they were truly taken."""
         noise = np.random.default_rng(self._scene.seed)
         places = Course(self._scene, random.Random(self._scene.name)).places()
         poses = [

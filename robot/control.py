@@ -9,13 +9,13 @@ from __future__ import annotations
 import logging
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
 
 from .body import Body, Image, Scan
 from .entries import read_entry, read_orphan
-from .geometry import Point, Pose
+from .geometry import ORIGIN, Point, Pose
 from .localisation import Localiser
 from .mapping import Mapper
 from .messages import Feedback, Malformed
@@ -109,6 +109,7 @@ class Robot:
         self._navigator = Navigator(body.limits)
         boot = boot or port.open()
         record = read_boot(boot)
+        self._eye = ORIGIN.ahead(body.camera.mount_m[0])
         self._localiser = Localiser(self.mapper, body.odometry(), None if record is None else record.pose)
         self._queue = IDLE if record is None else record.queue
         self._target: Goal | None = None
@@ -180,6 +181,10 @@ class Robot:
         self._ticks += 1
         if self._queue.mode is Mode.MOVING and self._ticks % RECORD_EVERY == 0:
             self._write_down()
+
+    def survey(self, views: Iterable[tuple[Pose, Scan]]) -> None:
+        """Learn the map from scans of which it is known where they were taken (map frame)."""
+        self._localiser.survey(views)
 
     def settle(self, duration_s: float) -> None:
         """Let time pass without listening, so that the robot comes to rest and has looked around."""
@@ -268,7 +273,9 @@ class Robot:
         if self._window is not None:
             self._window.show_image(image)
         if self._markers is not None:
-            self._markers.see(image, self._localiser.pose_at(image.time_s))
+            sightings = self._markers.find(image)
+            self._localiser.see_markers(image.time_s, sightings, self._eye)
+            self._markers.remember(sightings, self._localiser.pose_at(image.time_s))
         for entry in [entry for entry, since_s in self._photos.items() if image.time_s >= since_s]:
             path = None if self._pictures is None else save_picture(image, self._pictures)
             self._feed(PictureFailed(entry) if path is None else PictureTaken(entry, str(path)))

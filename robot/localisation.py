@@ -1,64 +1,35 @@
-"""Where the robot believes it is: odometry between scans, scans matched against the map (one robot, one floor)."""
+"""Where the robot believes it is: odometry between scans, corrected by what is seen (one robot, one floor)."""
 
 from __future__ import annotations
 
 import math
 from collections import deque
+from collections.abc import Iterable
 
 from .body import Odometry, Scan
-from .geometry import Pose, wrap_angle
-from .mapping import Mapper
+from .fiducials import Sighting
+from .geometry import Point, Pose, wrap_angle
+from .mapping import Mapper, PoseFilter, SightedPoint
 
 HISTORY = 100  # readings; seconds of them, so that any scan or image in hand can be placed
 # Odometry errs by a small share of the way between two scans. A correction beyond that casts doubt on the estimate, and
-# a scan entered at a wrong pose would spoil the map that is to put it right: it is not mapped.
+# a scan entered at a wrong pose would spoil the map: it is not mapped.
 DOUBT_M = 0.05
 DOUBT_RAD = math.radians(3.0)
 
 
-# Over so much way the heading's drift is averaged, and as if so much way without drift had gone before.
-DRIFT_AVERAGED_M = 30.0
-DRIFT_UNPROVEN_M = 3.0
-
-
-class HeadingDrift:
-    """How far odometry's heading runs off with each metre: wheels are never quite of the same size.
-
-    It is learnt from what the map had to correct, and taken off what odometry says next; it is as much as 0.3 degrees a
-    metre for radii that differ by one part in seven hundred.
-    """
-
-    def __init__(self) -> None:
-        self._way_m = DRIFT_UNPROVEN_M
-        self._turned_rad = 0.0
-
-    def corrected(self, moved: Pose) -> Pose:
-        """What the robot has really moved by when odometry says ``moved``."""
-        return moved.turned(self._rate * moved.x_m)
-
-    def learn(self, moved: Pose, correction_rad: float) -> None:
-        """Take in that after ``moved`` by odometry the heading had to be turned by ``correction_rad`` still."""
-        drifted_rad = (self._rate * moved.x_m + correction_rad) * math.copysign(1.0, moved.x_m)
-        kept = math.exp(-abs(moved.x_m) / DRIFT_AVERAGED_M)
-        self._turned_rad = kept * self._turned_rad + drifted_rad
-        self._way_m = kept * self._way_m + abs(moved.x_m)
-
-    @property
-    def _rate(self) -> float:
-        """Radians a metre."""
-        return self._turned_rad / self._way_m
-
-
 class Localiser:
-    """Call :meth:`move` with every odometry reading and :meth:`see` with every scan. Poses are in the map frame."""
+    """Call :meth:`move` with every odometry reading, :meth:`see` with every scan, and :meth:`see_markers` with markers.
+
+    Poses are in the map frame.
+    """
 
     def __init__(self, mapper: Mapper, odometry: Odometry, start: Pose | None = None) -> None:
         """``start`` is where the robot stands now; by default the odometry's own pose: then both frames are one."""
         self._mapper = mapper
         self._track: deque[Odometry] = deque([odometry], maxlen=HISTORY)
-        self._known = start or odometry.pose
-        self._known_odometry = odometry.pose
-        self._drift = HeadingDrift()
+        self._filter = PoseFilter(start or odometry.pose)
+        self._fed = odometry.pose
 
     @property
     def pose(self) -> Pose:
@@ -74,18 +45,35 @@ class Localiser:
             self._track.append(odometry)
 
     def see(self, scan: Scan) -> None:
-        """Correct the pose by the map, and the map by the scan unless the pose is in doubt."""
+        """Correct the pose by what is known, and map the scan unless the pose is in doubt."""
         then = self._odometry_at(scan.time_s)
-        predicted = self._place(then)
-        corrected = self._mapper.correct(predicted, scan)
-        self._drift.learn(then.relative_to(self._known_odometry), wrap_angle(corrected.yaw_rad - predicted.yaw_rad))
-        self._known, self._known_odometry = corrected, then
-        shift_m = predicted.point.distance_to(corrected.point)
-        if shift_m <= DOUBT_M and abs(wrap_angle(corrected.yaw_rad - predicted.yaw_rad)) <= DOUBT_RAD:
-            self._mapper.update(corrected, scan)
+        self._filter.move(then.relative_to(self._fed))
+        self._fed = then
+        expected = self._filter.pose
+        self._filter.see(scan)
+        shift = self._filter.pose.relative_to(expected)
+        if math.hypot(shift.x_m, shift.y_m) <= DOUBT_M and abs(shift.yaw_rad) <= DOUBT_RAD:
+            self._mapper.update(self._filter.pose, scan)
+
+    def see_markers(self, time_s: float, sightings: Iterable[Sighting], eye: Pose) -> None:
+        """Correct the pose by the markers in an image; ``eye`` is the camera in the body's frame."""
+        self._filter.see_points(
+            (SightedPoint(each.id, Point(*each.position_m[:2]), each.position_deviation_m) for each in sightings),
+            self._odometry_at(time_s).relative_to(self._fed),
+            eye,
+        )
+
+    def survey(self, views: Iterable[tuple[Pose, Scan]]) -> None:
+        """Learn the map from scans whose poses are known; the robot itself stays where it is."""
+        here = self._filter.pose
+        for pose, scan in views:
+            self._filter.settle(pose)
+            self._filter.see(scan)
+            self._mapper.update(pose, scan)
+        self._filter.settle(here)
 
     def _place(self, odometry: Pose) -> Pose:
-        return self._known.compose(self._drift.corrected(odometry.relative_to(self._known_odometry)))
+        return self._filter.ahead(odometry.relative_to(self._fed))
 
     def _odometry_at(self, time_s: float) -> Pose:
         later = self._track[-1]

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from .body import CameraModel, Image
 from .fiducial_map import FiducialMap
-from .fiducials import FiducialDetector
+from .fiducials import FiducialDetector, Sighting
 from .geometry import Pose
 from .messages import Fiducials
 
@@ -18,9 +18,13 @@ class Markers:
         self._detector = FiducialDetector(camera, size_m, sizes_m)
         self._map = FiducialMap()
 
-    def see(self, image: Image, pose: Pose) -> None:
-        """Take in an image that was taken at ``pose``."""
-        self._map.observe(self._detector.detect(image), pose)
+    def find(self, image: Image) -> tuple[Sighting, ...]:
+        """The markers in an image, as the robot sees them."""
+        return self._detector.detect(image)
+
+    def remember(self, sightings: tuple[Sighting, ...], pose: Pose) -> None:
+        """Take in what was found in an image that was taken at ``pose``."""
+        self._map.observe(sightings, pose)
 
     def message(self) -> Fiducials:
         """Every marker so far."""

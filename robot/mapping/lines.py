@@ -25,11 +25,15 @@ MAX_RMS_M = 0.025
 Floats = NDArray[np.float64]
 
 
-def scan_points(scan: Scan) -> Floats:
-    """The echoes of ``scan`` in the body's frame, in the beams' order; shape (echoes, 2), metres."""
-    echo = np.isfinite(scan.ranges_m) & (scan.ranges_m <= scan.max_range_m)
-    ranges, angles = scan.ranges_m[echo], scan.angles_rad[echo]
-    return np.column_stack([ranges * np.cos(angles), ranges * np.sin(angles)])
+def beam_points(scan: Scan, beams: NDArray[np.intp]) -> Floats:
+    """Where these beams of ``scan`` met something, body frame; shape (beams, 2), metres."""
+    ranges_m, angles_rad = scan.ranges_m[beams], scan.angles_rad[beams]
+    return np.column_stack([ranges_m * np.cos(angles_rad), ranges_m * np.sin(angles_rad)])
+
+
+def echo_points(scan: Scan) -> Floats:
+    """All echoes of ``scan``, as :func:`beam_points`, in the beams' order."""
+    return beam_points(scan, np.flatnonzero(np.isfinite(scan.ranges_m) & (scan.ranges_m <= scan.max_range_m)))
 
 
 def extract_segments(scan: Scan) -> tuple[Segment, ...]:
@@ -37,17 +41,22 @@ def extract_segments(scan: Scan) -> tuple[Segment, ...]:
 
     The beams must be in counter-clockwise order.
     """
+    return tuple(s for s in (_fit(beam_points(scan, run)) for run in straight_runs(scan)) if s is not None)
+
+
+def straight_runs(scan: Scan) -> list[NDArray[np.intp]]:
+    """Beams whose echoes lie along one line, by their places in the scan; each run counter-clockwise."""
     echo = np.flatnonzero(np.isfinite(scan.ranges_m) & (scan.ranges_m <= scan.max_range_m))
     if len(echo) < MIN_POINTS:
-        return ()
-    points = scan_points(scan)
+        return []
+    points = beam_points(scan, echo)
     breaks = _breaks(points, scan.ranges_m[echo], scan.angles_rad[echo])
     # Start behind a gap, so that a wall across the first beam stays whole; all around closed, in the farthest corner.
     first = int(breaks[0]) if len(breaks) else int(scan.ranges_m[echo].argmax())
-    points = np.roll(points, -first, axis=0)
+    points, echo = np.roll(points, -first, axis=0), np.roll(echo, -first)
     bounds = [0, *(breaks[1:] - first).tolist(), len(points)]
     pieces = [piece for first, end in itertools.pairwise(bounds) for piece in _split(points, first, end)]
-    return tuple(s for s in (_fit(points[first:end]) for first, end in _join(points, pieces)) if s is not None)
+    return [echo[first:end] for first, end in _join(points, pieces)]
 
 
 def _breaks(points: Floats, ranges_m: Floats, angles_rad: Floats) -> NDArray[np.intp]:

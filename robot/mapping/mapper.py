@@ -1,4 +1,4 @@
-"""Simultaneous localisation and mapping for one robot: scans in, corrected poses, a grid and walls out."""
+"""The map of one robot: scans and their poses in, a grid and walls out."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ from robot.geometry import Point, Pose, Segment, wrap_angle
 from robot.messages import Map
 
 from .grid import OccupancyGrid
-from .lines import extract_segments, scan_points
-from .matching import Lines, match
+from .lines import extract_segments
 from .walls import WallMap
 
 CONFIRMED_SIGHTINGS = 3
@@ -23,13 +22,11 @@ SETTLED_M = 0.01  # a published wall moves only by more than this
 
 
 class Mapper:
-    """Call :meth:`correct` with odometry's guess, then :meth:`update` with the pose that it gives."""
+    """What was seen through and what was met, and the walls among it, in the map frame."""
 
     def __init__(self, resolution_m: float = 0.05) -> None:
         self.grid = OccupancyGrid(resolution_m)
         self._walls = WallMap()
-        self._lines = Lines.of(())
-        self._lines_revision = 0
         self._learnt: tuple[Pose, float] | None = None
         self._pruned_s = -math.inf
         self._published: dict[int, Segment] = {}
@@ -45,13 +42,6 @@ class Mapper:
         if scan.time_s - self._pruned_s >= PRUNE_EVERY_S:
             self._pruned_s = scan.time_s
             self._walls.prune(self.grid, pose.point, scan.max_range_m)
-
-    def correct(self, predicted: Pose, scan: Scan) -> Pose:
-        """The pose at which ``scan`` fits the walls, or ``predicted`` where they do not tell."""
-        if self._lines_revision != self._walls.revision:
-            self._lines_revision = self._walls.revision
-            self._lines = Lines.of(self._walls)
-        return match(predicted, scan_points(scan), self._lines)
 
     def segments(self) -> tuple[Segment, ...]:
         """The walls seen often enough to be believed, in the order they were met, free space on their left."""

@@ -137,7 +137,6 @@ class WallMap:
         self._walls: dict[int, Wall] = {}
         self._hash: dict[Cell, dict[int, None]] = {}
         self._next_id = 0
-        self.revision = 0
 
     def __iter__(self) -> Iterator[Wall]:
         """The walls, oldest first."""
@@ -197,14 +196,12 @@ class WallMap:
         self._walls[wall.id] = wall
         for cell in _cells(wall, 0.0):
             self._hash.setdefault(cell, {})[wall.id] = None
-        self.revision += 1
 
     def _remove(self, wall: Wall) -> None:
         assert wall.id is not None
         del self._walls[wall.id]
         for cell in _cells(wall, 0.0):
             del self._hash[cell][wall.id]
-        self.revision += 1
 
 
 def merge_segments(segments: Iterable[Segment]) -> tuple[Segment, ...]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from robot.body import Limits, Scan
 from robot.geometry import Pose
-from robot.mapping.lines import scan_points
+from robot.mapping.lines import echo_points
 
 KEEP_AWAY_M = 0.015  # between the robot's circle and what is seen
 REACTION_S = 0.3  # the laser's period and the command's way to the wheels
@@ -35,7 +35,7 @@ class Surroundings:
         """What a scan taken at ``pose`` shows."""
         c, s = math.cos(pose.yaw_rad), math.sin(pose.yaw_rad)
         place = np.array([pose.x_m, pose.y_m])
-        return Surroundings(scan.time_s, scan_points(scan) @ np.array([[c, s], [-s, c]]) + place)
+        return Surroundings(scan.time_s, echo_points(scan) @ np.array([[c, s], [-s, c]]) + place)
 
     def clearance_m(self, pose: Pose) -> float:
         """From the turning centre to the nearest echo; inf for none."""

@@ -10,8 +10,8 @@ from kinematic_body import EXACT, HARSH, TYPICAL, KinematicBody, Noise, box, cas
 from pilot import Pilot, offset
 
 from robot.body import Scan
-from robot.geometry import ORIGIN, Point, Pose, Segment, wrap_angle
-from robot.mapping import Mapper, OccupancyGrid
+from robot.geometry import Point, Pose, Segment, wrap_angle
+from robot.mapping import OccupancyGrid
 from robot.mapping.lines import extract_segments
 from robot.navigation import Reach, State
 
@@ -93,30 +93,6 @@ def test_walls_keep_still_while_the_robot_stands_and_the_map_keeps_its_id() -> N
     moved = [a for a, b in zip(before.segments, after.segments, strict=True) if a != b]
     assert len(moved) <= len(before.segments) // 4
     assert pilot.mapper.message() == after
-
-
-def test_a_bare_corridor_does_not_drag_the_robot_along_its_axis() -> None:
-    """Along the axis there is nothing to see: what odometry says stands; across it the walls do."""
-    corridor = polygon((-50, -1), (50, -1), (50, 1), (-50, 1))
-    mapper = Mapper()
-    mapper.update(ORIGIN, scan_from(corridor, ORIGIN))
-    mapper.update(Pose(0.3, 0, 0), scan_from(corridor, Pose(0.3, 0, 0)))
-    truth = Pose(0.5, 0.0, 0.0)
-    corrected = Pose(0.6, 0.04, 0.03)
-    for _ in range(5):  # a scan alone is not trusted all the way
-        corrected = mapper.correct(corrected, scan_from(corridor, truth))
-    assert corrected.x_m == pytest.approx(0.6, abs=0.005)
-    assert corrected.y_m == pytest.approx(0.0, abs=0.01)
-    assert corrected.yaw_rad == pytest.approx(0.0, abs=0.01)
-
-
-def test_a_scan_that_fits_nowhere_leaves_the_prediction_alone() -> None:
-    mapper = Mapper()
-    mapper.update(ORIGIN, scan_from(RING, ORIGIN))
-    elsewhere = scan_from(polygon((-0.6, -0.5), (0.7, -0.4), (0.2, 0.8)), ORIGIN)
-    predicted = Pose(0.1, 0.0, 0.1)
-    assert mapper.correct(predicted, elsewhere) == predicted
-    assert Mapper().correct(predicted, elsewhere) == predicted
 
 
 def test_the_same_run_twice_gives_the_same_poses_and_map_to_the_last_digit() -> None:
