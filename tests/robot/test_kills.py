@@ -50,6 +50,7 @@ class Kirby:
         self.client = redis.Redis.from_url(url)
         self.cursor = cursor
         self.told = []
+        self.answered = 0  # of the times that it said PAUSED
 
     def read(self):
         """The codes told since the last time."""
@@ -64,7 +65,7 @@ class Kirby:
         """Wait until it says READY, or PAUSED and is told to continue."""
         codes = wait_for(lambda: {"READY", "PAUSED"} & set(self.read()))
         if "PAUSED" in codes:
-            self.push("continue")
+            self.go_on()
             wait_for(lambda: "RESTARTING" in self.read() or "RESTARTING" in dict(self.told))
 
     def push(self, *texts):
@@ -85,9 +86,16 @@ class Kirby:
 
     def finished(self):
         """Everything done; a robot that came up paused is told to go on."""
-        if "PAUSED" in self.read():
+        empty = self.drained()
+        self.go_on()
+        return empty
+
+    def go_on(self):
+        """Answer every PAUSED that was read, once."""
+        paused = sum(code == "PAUSED" for code, _ in self.told)
+        if paused > self.answered:
+            self.answered = paused
             self.push("continue")
-        return self.drained()
 
 
 def command(number):
