@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from robot.body import Scan
 
-from .lines import beam_points, straight_runs
+from .lines import MIN_LENGTH_M, beam_points, straight_runs
 
 Floats = NDArray[np.float64]
 
@@ -71,6 +71,9 @@ def sight_lines(scan: Scan) -> tuple[SightedLine, ...]:
 
 
 def _sighted(scan: Scan, run: NDArray[np.intp]) -> SightedLine | None:
+    ends = beam_points(scan, run[[0, -1]])
+    if math.dist(ends[0], ends[1]) < MIN_LENGTH_M:
+        return None
     trimmed = TRIMMED if len(run) >= MIN_ECHOES + 2 * TRIMMED else TRIMMED_IF_SHORT
     points = beam_points(scan, run[trimmed:-trimmed])
     ranges_m = np.hypot(points[:, 0], points[:, 1])
