@@ -69,7 +69,7 @@ class _Line:
 
 
 @dataclass(frozen=True, slots=True)
-class _Match:
+class Match:
     """A known line and one that is seen, whose middle lies ``along_m`` from the known one's anchor."""
 
     line: _Line
@@ -91,6 +91,12 @@ class _Table:
     last_m: Floats
 
 
+def contested(nearest: Sequence[Match | None]) -> bool:
+    """Whether most of the lines that are seen where lines are known are none of these."""
+    same = [match.distance <= SAME for match in nearest if match is not None]
+    return len(same) >= CONTESTED_LINES and sum(same) < len(same) / 2
+
+
 class LineLandmarks:
     """The lines met so far, as part of the joint estimate ``state``, whose first columns are the robot's pose."""
 
@@ -98,20 +104,16 @@ class LineLandmarks:
         self._state = state
         self._lines: list[_Line] = []
 
-    def __len__(self) -> int:
-        return len(self._lines)
-
-    def contested(self, sighted: Sequence[SightedLine], expected: Pose) -> bool:
-        """Whether most of the lines that are seen where lines are known are none of these."""
-        same = [match.distance <= SAME for match in self._nearest(sighted, expected) if match is not None]
-        return len(same) >= CONTESTED_LINES and sum(same) < len(same) / 2
-
-    def see(self, sighted: Sequence[SightedLine], expected: Pose) -> None:
-        """Correct the joint estimate by the lines that are known, and enter the others.
+    def compare(self, sighted: Sequence[SightedLine], expected: Pose) -> list[Match | None]:
+        """Of each line that is seen the known one that it is most likely to be; None where none is near.
 
         ``expected`` is the pose before any correction: the first estimate of it.
         """
-        nearest = self._nearest(sighted, expected)
+        table = self._table()
+        return [self._nearest_to(line, expected, table) for line in sighted]
+
+    def correct(self, sighted: Sequence[SightedLine], nearest: Sequence[Match | None], expected: Pose) -> None:
+        """Correct the joint estimate by the lines that are known, and enter the others."""
         same = [match for match in nearest if match is not None and match.distance <= SAME]
         ends = [each for match in same for each in self._measured_ends(match, expected)]
         self._state.correct([*(match.measured for match in same), *ends])
@@ -153,12 +155,7 @@ class LineLandmarks:
             fixed[:, 4],
         )
 
-    def _nearest(self, sighted: Sequence[SightedLine], expected: Pose) -> list[_Match | None]:
-        """Of each line that is seen the known one that it is most likely to be; None where none is near."""
-        table = self._table()
-        return [self._nearest_to(line, expected, table) for line in sighted]
-
-    def _nearest_to(self, seen: SightedLine, expected: Pose, table: _Table) -> _Match | None:
+    def _nearest_to(self, seen: SightedLine, expected: Pose, table: _Table) -> Match | None:
         x_m, y_m, yaw_rad = self._state.mean[:3].tolist()
         ahead_m, left_m = _turned(seen.centre_m, yaw_rad)
         middle = np.array([x_m + ahead_m, y_m + left_m])
@@ -179,16 +176,16 @@ class LineLandmarks:
 
     def _match(
         self, seen: SightedLine, line: _Line, arm: Floats, middle: Floats, residual: Floats, along_m: float
-    ) -> _Match:
+    ) -> Match:
         c, s = math.cos(line.direction_rad), math.sin(line.direction_rad)
         lever_m = c * arm[0] + s * arm[1]  # the offset's change with the yaw: normal times the arm turned left
         from_anchor_m = c * (middle[0] - line.anchor[0]) + s * (middle[1] - line.anchor[1])
         slopes = np.array([[-s, c, lever_m, -1.0, -from_anchor_m], [0.0, 0.0, 1.0, 0.0, -1.0]])
         noise = np.diag([seen.offset_variance_m2, seen.direction_variance_rad2])
         measured = Measurement([*POSE, *line.block.columns], slopes, residual, noise)
-        return _Match(line, seen, measured, self._state.distance(measured), along_m)
+        return Match(line, seen, measured, self._state.distance(measured), along_m)
 
-    def _measured_ends(self, match: _Match, expected: Pose) -> Iterator[Measurement]:
+    def _measured_ends(self, match: Match, expected: Pose) -> Iterator[Measurement]:
         """The ends that are known and seen where they are known to be; one that is not is given up in time."""
         for side, seen in enumerate(match.seen.ends):
             known = match.line.ends[side]
@@ -205,7 +202,7 @@ class LineLandmarks:
             else:
                 known.elsewhere += 1
 
-    def _end(self, match: _Match, seen: SightedEnd, expected: Pose) -> tuple[float, tuple[float, float, float]]:
+    def _end(self, match: Match, seen: SightedEnd, expected: Pose) -> tuple[float, tuple[float, float, float]]:
         """How far an end is along its line, and how that changes with the pose."""
         line = match.line
         x_m, y_m, yaw_rad = self._state.mean[:3].tolist()
@@ -217,7 +214,7 @@ class LineLandmarks:
         lever_m = s * (place[0] - expected.x_m) - c * (place[1] - expected.y_m)
         return along_m, (c, s, lever_m)
 
-    def _extend(self, match: _Match, expected: Pose) -> None:
+    def _extend(self, match: Match, expected: Pose) -> None:
         """A line reaches as far as it was ever seen; and an end of it that is seen for the first time is entered."""
         line = match.line
         line.first_m = min(line.first_m, match.along_m + match.seen.first_m)

@@ -17,7 +17,7 @@ from robot.body import Scan
 from robot.geometry import ORIGIN, Pose, wrap_angle
 
 from .gaussian import Gaussian
-from .line_landmarks import LineLandmarks
+from .line_landmarks import LineLandmarks, contested
 from .point_landmarks import PointLandmarks, SightedPoint
 from .sighted_lines import sight_lines
 
@@ -72,11 +72,6 @@ class PoseFilter:
         x_m, y_m, yaw_rad = self._state.mean[:3].tolist()
         return Pose(x_m, y_m, wrap_angle(yaw_rad))
 
-    @property
-    def deviation_m(self) -> float:
-        """Of the place: one standard deviation of the whole vector."""
-        return math.sqrt(max(0.0, float(self._state.covariance[0, 0] + self._state.covariance[1, 1])))
-
     def ahead(self, counted: Pose) -> Pose:
         """The pose after odometry will have counted ``counted`` (relative to the last that was fed)."""
         drift, longer, wider = self._state.mean[3:6].tolist()
@@ -106,9 +101,11 @@ class PoseFilter:
         self._since_view = ORIGIN
         self._distrust += REGAINED * (1.0 - self._distrust)
         lines = sight_lines(scan)
-        if self._lines.contested(lines, self._expected):
+        nearest = self._lines.compare(lines, self._expected)
+        if contested(nearest):
             self._doubt()
-        self._lines.see(lines, self._expected)
+            nearest = self._lines.compare(lines, self._expected)
+        self._lines.correct(lines, nearest, self._expected)
         self._lines.drop_pierced(scan, self.pose)
 
     def see_points(self, sighted: Iterable[SightedPoint], since: Pose, eye: Pose) -> None:
