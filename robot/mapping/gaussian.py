@@ -76,10 +76,15 @@ class Gaussian:
             noise[rows, rows] = each.noise
             first = rows.stop
         gains = self.covariance[:, columns] @ slopes.T
-        weights = np.linalg.solve(slopes @ gains[columns] + noise, gains.T).T
-        self.mean += weights @ np.concatenate([each.residual for each in measurements])
-        self.covariance -= weights @ gains.T
-        self.covariance = (self.covariance + self.covariance.T) / 2
+        spread = slopes @ gains[columns] + noise
+        # What does not depend on anything measured stays as it is: after a survey that is nearly all of a map.
+        touched = np.flatnonzero(gains.any(axis=1))
+        gains = gains[touched]
+        weights = np.linalg.solve(spread, gains.T).T
+        self.mean[touched] += weights @ np.concatenate([each.residual for each in measurements])
+        block = np.ix_(touched, touched)
+        surer = self.covariance[block] - weights @ gains.T
+        self.covariance[block] = (surer + surer.T) / 2
 
     def grow(self, columns: list[int], slopes: Floats, values: Floats, noise: Floats) -> Block:
         """Add m quantities that depend on those of ``columns`` by ``slopes`` (m, k)."""
