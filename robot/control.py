@@ -15,7 +15,7 @@ from pathlib import Path
 
 from .body import Body, Image, Scan
 from .entries import read_entry, read_orphan
-from .geometry import ORIGIN, Point, Pose
+from .geometry import Point, Pose
 from .localisation import Localiser
 from .mapping import Mapper
 from .messages import Feedback, Malformed
@@ -109,7 +109,7 @@ class Robot:
         self._navigator = Navigator(body.limits)
         boot = boot or port.open()
         record = read_boot(boot)
-        self._eye = ORIGIN.ahead(body.camera.mount_m[0])
+        self._eye = Pose(*body.camera.mount_m[:2], 0.0)
         self._localiser = Localiser(self.mapper, body.odometry(), None if record is None else record.pose)
         self._queue = IDLE if record is None else record.queue
         self._target: Goal | None = None
@@ -183,7 +183,7 @@ class Robot:
             self._write_down()
 
     def survey(self, views: Iterable[tuple[Pose, Scan]]) -> None:
-        """Learn the map from scans of which it is known where they were taken (map frame)."""
+        """Learn the map from scans of which it is known where they were taken (map frame), before the first drive."""
         self._localiser.survey(views)
 
     def settle(self, duration_s: float) -> None:

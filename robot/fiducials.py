@@ -80,7 +80,7 @@ class FiducialDetector:
         half_m = self._sizes_m.get(id, self._size_m) / 2
         tried = [self._fit(start, corners_px, half_m) for start in self._candidates(corners_px, half_m)]
         fits = sorted((fit for fit in tried if fit is not None), key=lambda fit: fit.error_px)
-        if not fits or fits[0].error_px > _FIT_MAX_PX:
+        if not fits or not fits[0].error_px <= _FIT_MAX_PX:  # nor when it is no number
             return None
         best = fits[0]
         x_m, y_m, z_m, yaw_rad = best.values.tolist()

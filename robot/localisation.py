@@ -16,6 +16,7 @@ HISTORY = 100  # readings; seconds of them, so that any scan or image in hand ca
 # a scan entered at a wrong pose would spoil the map: it is not mapped.
 DOUBT_M = 0.05
 DOUBT_RAD = math.radians(3.0)
+UNWRAPPED_RAD = 1.0  # without a scan for longer than this, a turn could be taken for one the other way
 
 
 class Localiser:
@@ -41,30 +42,37 @@ class Localiser:
         return self._place(self._odometry_at(time_s))
 
     def move(self, odometry: Odometry) -> None:
-        if odometry.time_s > self._track[-1].time_s:
-            self._track.append(odometry)
+        if odometry.time_s <= self._track[-1].time_s:
+            return
+        self._track.append(odometry)
+        if abs(wrap_angle(odometry.pose.yaw_rad - self._fed.yaw_rad)) > UNWRAPPED_RAD:
+            self._feed(odometry.pose)
 
     def see(self, scan: Scan) -> None:
         """Correct the pose by what is known, and map the scan unless the pose is in doubt."""
-        then = self._odometry_at(scan.time_s)
-        self._filter.move(then.relative_to(self._fed))
-        self._fed = then
+        self._feed(self._odometry_at(scan.time_s))
         expected = self._filter.pose
         self._filter.see(scan)
         shift = self._filter.pose.relative_to(expected)
         if math.hypot(shift.x_m, shift.y_m) <= DOUBT_M and abs(shift.yaw_rad) <= DOUBT_RAD:
             self._mapper.update(self._filter.pose, scan)
 
+    def _feed(self, odometry: Pose) -> None:
+        self._filter.move(odometry.relative_to(self._fed))
+        self._fed = odometry
+
     def see_markers(self, time_s: float, sightings: Iterable[Sighting], eye: Pose) -> None:
         """Correct the pose by the markers in an image; ``eye`` is the camera in the body's frame."""
-        self._filter.see_points(
-            (SightedPoint(each.id, Point(*each.position_m[:2]), each.position_deviation_m) for each in sightings),
-            self._odometry_at(time_s).relative_to(self._fed),
-            eye,
-        )
+        if time_s < self._track[0].time_s:
+            return  # nobody knows any more where that was
+        points = [SightedPoint(each.id, Point(*each.position_m[:2]), each.position_deviation_m) for each in sightings]
+        self._filter.see_points(points, self._odometry_at(time_s).relative_to(self._fed), eye)
 
     def survey(self, views: Iterable[tuple[Pose, Scan]]) -> None:
-        """Learn the map from scans whose poses are known; the robot itself stays where it is."""
+        """Learn the map from scans whose poses are known, before the first drive.
+
+        The robot itself stays where it is, and that counts as certain, as at the start.
+        """
         here = self._filter.pose
         for pose, scan in views:
             self._filter.settle(pose)

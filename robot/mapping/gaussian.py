@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+POSE = [0, 1, 2]  # the columns of the robot's x, y and yaw, by agreement of all who share one
+
 
 @dataclass(slots=True, eq=False)
 class Block:

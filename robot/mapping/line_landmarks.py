@@ -19,14 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robot.body import Scan
-from robot.geometry import Pose, wrap_angle
+from robot.geometry import Point, Pose, wrap_angle
 
-from .gaussian import Block, Gaussian, Measurement
+from .gaussian import POSE, Block, Gaussian, Measurement
 from .sighted_lines import SightedEnd, SightedLine
 
 Floats = NDArray[np.float64]
 
-POSE = [0, 1, 2]  # the columns of the robot's x, y and yaw
 # Which of the known lines may be the one that is seen: as far off in direction, across, and beyond its ends.
 NEAR_RAD = math.radians(20.0)
 NEAR_M = 0.5
@@ -39,10 +38,11 @@ CONTESTED_LINES = 3
 # The same of an end, of one figure (exceeded once in 370); so often in a row elsewhere, and it is not there.
 END_SAME = 9.0
 TIMES_ELSEWHERE = 3
-# A line is given up after so many views in which most beams that should have ended on it went on for so much farther.
+# A line is given up after so many views in a row in which most beams that should have ended on it went on for so much
+# farther.
 PIERCED_VIEWS = 5
 PIERCED_M = 0.15
-PIERCED_BEAMS = 6
+PIERCED_BEAMS = 3
 PIERCED_SHARE = 0.8
 PIERCED_SINE = 0.3  # flatter beams prove nothing
 
@@ -91,10 +91,15 @@ class _Table:
     last_m: Floats
 
 
+def recognised(nearest: Sequence[Match | None]) -> list[Match]:
+    """Those that are the known line."""
+    return [match for match in nearest if match is not None and match.distance <= SAME]
+
+
 def contested(nearest: Sequence[Match | None]) -> bool:
     """Whether most of the lines that are seen where lines are known are none of these."""
-    same = [match.distance <= SAME for match in nearest if match is not None]
-    return len(same) >= CONTESTED_LINES and sum(same) < len(same) / 2
+    near = sum(match is not None for match in nearest)
+    return near >= CONTESTED_LINES and len(recognised(nearest)) < near / 2
 
 
 class LineLandmarks:
@@ -112,13 +117,15 @@ class LineLandmarks:
         table = self._table()
         return [self._nearest_to(line, expected, table) for line in sighted]
 
-    def correct(self, sighted: Sequence[SightedLine], nearest: Sequence[Match | None], expected: Pose) -> None:
-        """Correct the joint estimate by the lines that are known, and enter the others."""
-        same = [match for match in nearest if match is not None and match.distance <= SAME]
+    def correct(self, same: Sequence[Match], expected: Pose) -> None:
+        """Correct the joint estimate by lines that were recognised."""
         ends = [each for match in same for each in self._measured_ends(match, expected)]
         self._state.correct([*(match.measured for match in same), *ends])
         for match in same:
             self._extend(match, expected)
+
+    def enter(self, sighted: Sequence[SightedLine], nearest: Sequence[Match | None], expected: Pose) -> None:
+        """Enter the lines that are none of those known."""
         for line, known in zip(sighted, nearest, strict=True):
             if known is None or known.distance > ANOTHER:
                 self._enter(line, expected)
@@ -139,6 +146,10 @@ class LineLandmarks:
                     if end is not None:
                         self._state.forget(end.block)
 
+    @property
+    def _pose(self) -> Pose:
+        return Pose(*self._state.mean[POSE].tolist())
+
     def _table(self) -> _Table:
         firsts = np.array([line.block.first for line in self._lines], dtype=np.intp)
         fixed = np.array([(*line.anchor, line.direction_rad, line.first_m, line.last_m) for line in self._lines])
@@ -156,10 +167,10 @@ class LineLandmarks:
         )
 
     def _nearest_to(self, seen: SightedLine, expected: Pose, table: _Table) -> Match | None:
-        x_m, y_m, yaw_rad = self._state.mean[:3].tolist()
-        ahead_m, left_m = _turned(seen.centre_m, yaw_rad)
-        middle = np.array([x_m + ahead_m, y_m + left_m])
-        turned_rad = _wrapped(yaw_rad + seen.direction_rad - table.directions_rad)
+        here = self._pose
+        place = here.to_map(Point(*seen.centre_m))
+        middle = np.array([place.x_m, place.y_m])
+        turned_rad = _wrapped(here.yaw_rad + seen.direction_rad - table.directions_rad)
         from_lines = middle - table.points
         across_m = (from_lines * table.normals).sum(axis=1)
         along_m = (from_lines * table.along).sum(axis=1)
@@ -205,13 +216,10 @@ class LineLandmarks:
     def _end(self, match: Match, seen: SightedEnd, expected: Pose) -> tuple[float, tuple[float, float, float]]:
         """How far an end is along its line, and how that changes with the pose."""
         line = match.line
-        x_m, y_m, yaw_rad = self._state.mean[:3].tolist()
-        away = Pose(*match.seen.centre_m, match.seen.direction_rad).ahead(seen.along_m)
-        ahead_m, left_m = _turned((away.x_m, away.y_m), yaw_rad)
-        place = x_m + ahead_m, y_m + left_m
+        place = self._pose.to_map(Point(*match.seen.centre_m).moved(seen.along_m, match.seen.direction_rad))
         c, s = math.cos(line.direction_rad), math.sin(line.direction_rad)
-        along_m = c * (place[0] - line.anchor[0]) + s * (place[1] - line.anchor[1])
-        lever_m = s * (place[0] - expected.x_m) - c * (place[1] - expected.y_m)
+        along_m = c * (place.x_m - line.anchor[0]) + s * (place.y_m - line.anchor[1])
+        lever_m = s * (place.x_m - expected.x_m) - c * (place.y_m - expected.y_m)
         return along_m, (c, s, lever_m)
 
     def _extend(self, match: Match, expected: Pose) -> None:
@@ -230,16 +238,15 @@ class LineLandmarks:
                 line.ends[side] = _End(self._state.grow(POSE, np.array([slopes]), np.array([along_m]), noise))
 
     def _enter(self, seen: SightedLine, expected: Pose) -> None:
-        x_m, y_m, yaw_rad = self._state.mean[:3].tolist()
-        ahead_m, left_m = _turned(seen.centre_m, yaw_rad)
-        anchor = (x_m + ahead_m, y_m + left_m)
-        direction_rad = wrap_angle(yaw_rad + seen.direction_rad)
+        here = self._pose
+        anchor = here.to_map(Point(*seen.centre_m))
+        direction_rad = wrap_angle(here.yaw_rad + seen.direction_rad)
         c, s = math.cos(direction_rad), math.sin(direction_rad)
-        lever_m = c * (anchor[0] - expected.x_m) + s * (anchor[1] - expected.y_m)
+        lever_m = c * (anchor.x_m - expected.x_m) + s * (anchor.y_m - expected.y_m)
         slopes = np.array([[-s, c, lever_m], [0.0, 0.0, 1.0]])
         noise = np.diag([seen.offset_variance_m2, seen.direction_variance_rad2])
         block = self._state.grow(POSE, slopes, np.array([0.0, direction_rad]), noise)
-        self._lines.append(_Line(block, anchor, direction_rad, seen.first_m, seen.last_m))
+        self._lines.append(_Line(block, (anchor.x_m, anchor.y_m), direction_rad, seen.first_m, seen.last_m))
 
 
 def _crossings(table: _Table, scan: Scan, pose: Pose) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
@@ -256,11 +263,6 @@ def _crossings(table: _Table, scan: Scan, pose: Pose) -> tuple[NDArray[np.int64]
     crosses &= reach_m + PIERCED_M < scan.max_range_m
     pierced = crosses & (scan.ranges_m > reach_m + PIERCED_M)
     return crosses.sum(axis=1), pierced.sum(axis=1)
-
-
-def _turned(place: tuple[float, float], yaw_rad: float) -> tuple[float, float]:
-    c, s = math.cos(yaw_rad), math.sin(yaw_rad)
-    return c * place[0] - s * place[1], s * place[0] + c * place[1]
 
 
 def _wrapped(angles_rad: Floats) -> Floats:

@@ -8,7 +8,7 @@ and pulls the robot towards that error from then on; together, both are put righ
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +17,9 @@ from robot.body import Scan
 from robot.geometry import ORIGIN, Pose, wrap_angle
 
 from .gaussian import Gaussian
-from .line_landmarks import LineLandmarks, contested
+from .line_landmarks import LineLandmarks, contested, recognised
 from .point_landmarks import PointLandmarks, SightedPoint
-from .sighted_lines import sight_lines
+from .sighted_lines import SightedLine, sight_lines
 
 # Odometry's error grows with the root of the way, or of the angle turned; one standard deviation each for a metre and
 # for a radian. They are those of two wheels that slip 0.7 mm in a metre, each on its own.
@@ -32,18 +32,47 @@ TURNED_M = 0.00023
 HEADING_DRIFT_RAD_PER_M = 0.005
 LENGTH_SCALE = 0.005
 ANGLE_SCALE = 0.01
-# A scan from where the last one was taken has much the same errors again: a few of them, then only new views count.
+# Loads and floors change: what is known of that wears off with the root of the way, or of the angle turned.
+HEADING_DRIFT_WORN, LENGTH_WORN, ANGLE_WORN = 0.0002, 0.0001, 0.0003
+# Seen from the same place all has much the same errors again: a few such views count, then only those from elsewhere.
 FIRST_VIEWS = 5
 NEW_VIEW_M = 0.04
 NEW_VIEW_RAD = math.radians(3.0)
 # What a robot that has lost itself, by a push or a threshold, may be off by.
 LOST_M = 0.1
 LOST_RAD = math.radians(5.0)
+LOST_ROUNDS = 3
+LOST_VIEWS = 10  # in a row; then it is taken for the world that has changed, and entered
 # Each time its wheels' errors are believed to have so many times the variance, at most so many; less again over the
 # views to come, by this share each. Other wheels than those above are allowed for in this way.
 DISTRUST, DISTRUST_MAX, REGAINED = 4.0, 64.0, 0.001
 
 Floats = NDArray[np.float64]
+
+
+class Views:
+    """Tells a view from a new place from more of the same."""
+
+    def __init__(self) -> None:
+        self._since = ORIGIN  # the last view, by odometry
+        self._taken = 0
+
+    @property
+    def is_new(self) -> bool:
+        return self.is_new_after(ORIGIN)
+
+    def is_new_after(self, counted: Pose) -> bool:
+        """Whether a view would be new after odometry had counted so much more."""
+        since = self._since.compose(counted)
+        moved_m, turned_rad = math.hypot(since.x_m, since.y_m), abs(since.yaw_rad)
+        return self._taken < FIRST_VIEWS or moved_m >= NEW_VIEW_M or turned_rad >= NEW_VIEW_RAD
+
+    def take(self, after: Pose = ORIGIN) -> None:
+        self._taken += 1
+        self._since = ORIGIN.relative_to(after)
+
+    def move(self, counted: Pose) -> None:
+        self._since = self._since.compose(counted)
 
 
 class PoseFilter:
@@ -62,8 +91,8 @@ class PoseFilter:
         self._lines = LineLandmarks(self._state)
         self._points = PointLandmarks(self._state)
         self._expected = start  # the pose before it is corrected by what is seen from it
-        self._since_view = ORIGIN
-        self._views = 0
+        self._scanned, self._pictured = Views(), Views()
+        self._lost_views = 0
         self._distrust = 1.0
 
     @property
@@ -91,48 +120,64 @@ class PoseFilter:
         mean = np.array([after.x_m, after.y_m, after.yaw_rad, *self._state.mean[3:6]])
         self._state.advance(mean, slopes, self._distrust * _slip(counted, after.yaw_rad))
         self._expected = after
-        self._since_view = self._since_view.compose(counted)
+        self._scanned.move(counted)
+        self._pictured.move(counted)
 
     def see(self, scan: Scan) -> None:
         """Take in a scan from where the robot is now."""
-        if not self._is_new_view():
-            return
-        self._views += 1
-        self._since_view = ORIGIN
-        self._distrust += REGAINED * (1.0 - self._distrust)
         lines = sight_lines(scan)
         nearest = self._lines.compare(lines, self._expected)
-        if contested(nearest):
-            self._doubt()
-            nearest = self._lines.compare(lines, self._expected)
-        self._lines.correct(lines, nearest, self._expected)
-        self._lines.drop_pierced(scan, self.pose)
+        lost = contested(nearest) and self._lost_views < LOST_VIEWS
+        if not lost and not self._scanned.is_new:
+            return
+        self._scanned.take()
+        self._distrust += REGAINED * (1.0 - self._distrust)
+        self._lost_views = self._lost_views + 1 if lost else 0
+        if lost:
+            self._find_again(lines)
+            return
+        same = recognised(nearest)
+        self._lines.correct(same, self._expected)
+        self._lines.enter(lines, nearest, self._expected)
+        if same:  # who recognises nothing is blind or elsewhere, and looks through everything
+            self._lines.drop_pierced(scan, self.pose)
 
-    def see_points(self, sighted: Iterable[SightedPoint], since: Pose, eye: Pose) -> None:
+    def _find_again(self, lines: Sequence[SightedLine]) -> None:
+        """Compare anew with a pose that is unsure, and again from the better one, as slopes hold only near by."""
+        for _ in range(LOST_ROUNDS):
+            self._doubt()
+            self._lines.correct(recognised(self._lines.compare(lines, self._expected)), self._expected)
+            self._expected = self.pose
+        self._distrust = min(DISTRUST * self._distrust, DISTRUST_MAX)
+
+    def see_points(self, sighted: Sequence[SightedPoint], since: Pose, eye: Pose) -> None:
         """Take in markers seen after odometry had counted ``since`` more, by a camera at ``eye`` (body frame)."""
-        for point in sighted:
-            self._points.see(point, since, eye, self._expected)
+        lost = self._points.contested(sighted, since, eye, self._expected)
+        if not sighted or not (lost or self._pictured.is_new_after(since)):
+            return
+        for _ in range(LOST_ROUNDS if lost else 0):
+            self._doubt()
+            self._points.see(sighted, since, eye, self._expected)
+            self._expected = self.pose
+        self._pictured.take(since)
+        self._points.see(sighted, since, eye, self._expected)
 
     def settle(self, pose: Pose) -> None:
-        """The robot is at ``pose`` for certain: it was put there."""
+        """From now on the robot is taken to be at ``pose`` for certain."""
         self._state.settle(np.array([pose.x_m, pose.y_m, pose.yaw_rad]))
         self._expected = pose
-        self._views = 0
-
-    def _is_new_view(self) -> bool:
-        way_m, turned_rad = math.hypot(self._since_view.x_m, self._since_view.y_m), abs(self._since_view.yaw_rad)
-        return self._views < FIRST_VIEWS or way_m >= NEW_VIEW_M or turned_rad >= NEW_VIEW_RAD
+        self._scanned, self._pictured = Views(), Views()
 
     def _doubt(self) -> None:
-        """Nothing is where it should be, so the robot is not where it thinks."""
-        self._distrust = min(DISTRUST * self._distrust, DISTRUST_MAX)
+        """Nothing is where it should be, so the robot is not where it thinks; what it sees from here counts anew."""
+        self._scanned, self._pictured = Views(), Views()
         noise = np.zeros((6, 6))
         np.fill_diagonal(noise[:3, :3], (LOST_M**2, LOST_M**2, LOST_RAD**2))
         self._state.advance(self._state.mean[:6].copy(), np.eye(6), noise)
 
 
 def _slip(counted: Pose, yaw_rad: float) -> Floats:
-    """The covariance, shape (6, 6), of what odometry may have miscounted; the wheels' own errors do not change."""
+    """The covariance, shape (6, 6), of what odometry may have miscounted, and of how the wheels may have changed."""
     way_m, turned_rad = math.hypot(counted.x_m, counted.y_m), abs(counted.yaw_rad)
     along_m2 = AHEAD_M**2 * way_m + TURNED_M**2 * turned_rad
     across_m2 = ASIDE_M**2 * way_m + TURNED_M**2 * turned_rad
@@ -140,4 +185,6 @@ def _slip(counted: Pose, yaw_rad: float) -> Floats:
     noise = np.zeros((6, 6))
     noise[:2, :2] = across_m2 * np.eye(2) + (along_m2 - across_m2) * np.outer(ahead, ahead)
     noise[2, 2] = HEADING_RAD**2 * way_m + TURNED_RAD**2 * turned_rad
+    noise[3, 3], noise[4, 4] = HEADING_DRIFT_WORN**2 * way_m, LENGTH_WORN**2 * way_m
+    noise[5, 5] = ANGLE_WORN**2 * turned_rad
     return noise

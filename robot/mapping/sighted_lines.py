@@ -25,8 +25,6 @@ TRIMMED, TRIMMED_IF_SHORT = 2, 1
 MIN_SINE_OF_INCIDENCE = 0.3
 # Of the echoes from the line, in standard deviations along the beam: more, and the surface is not one straight line.
 MAX_RMS, MAX_RESIDUAL = 1.6, 3.5
-
-
 # A surface ends where the next beam goes on for so much farther; how surely, whatever the beams' distance.
 PAST_END_M = 0.06
 LEAST_END_M = 0.005

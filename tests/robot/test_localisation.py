@@ -84,14 +84,19 @@ def test_a_scan_that_fits_nowhere_leaves_the_robot_where_odometry_says() -> None
     assert offset(walker.localiser.pose, walker.counted) < 0.02
 
 
-@pytest.mark.parametrize("push", [Pose(0.08, 0.05, 0.0), Pose(0.0, 0.0, math.radians(6.0)), Pose(-0.06, 0.04, -0.08)])
-def test_a_push_that_the_wheels_do_not_feel_is_found_out(push: Pose) -> None:
+@pytest.mark.parametrize("step", [ORIGIN, Pose(0.05, 0.0, 0.02)])
+@pytest.mark.parametrize(
+    "push",
+    [Pose(0.08, 0.05, 0.0), Pose(0.0, 0.0, 0.1), Pose(-0.06, 0.04, -0.08), Pose(0, 0, 0.2), Pose(0.05, 0.0, -0.2)],
+)
+def test_a_push_that_the_wheels_do_not_feel_is_found_out(push: Pose, step: Pose) -> None:
+    """Whether the robot then drives on or stands."""
     walker = Walker(ROOM)
     for _ in range(20):
         walker.go(Pose(0.05, 0.0, 0.02))
     walker.go(push, counted=ORIGIN)
     for _ in range(20):
-        walker.go(Pose(0.05, 0.0, 0.02))
+        walker.go(step)
     assert walker.off_m < 0.02
     assert walker.off_rad < math.radians(0.5)
 
@@ -151,6 +156,33 @@ def test_a_thing_that_was_taken_away_is_not_held_on_to() -> None:
     assert walker.off_rad < math.radians(1.0)
 
 
+def test_a_laser_that_falls_silent_takes_nothing_away() -> None:
+    walker = Walker(ROOM)
+    for _ in range(40):
+        walker.go(Pose(0.03, 0.0, 0.05))
+    walker.walls = PLAIN
+    for _ in range(12):
+        walker.go(Pose(0.03, 0.0, 0.05), counted=Pose(0.032, 0.0, 0.052))
+    walker.walls = ROOM
+    for _ in range(5):
+        walker.go(Pose(0.03, 0.0, 0.05))
+    assert walker.off_m < 0.01
+    assert walker.off_rad < math.radians(0.3)
+
+
+def test_a_turn_of_which_no_scan_tells_counts_whole() -> None:
+    """More than half a turn with a blind laser is the sum of what odometry says, not the difference of its ends."""
+    walker = Walker(ROOM)
+    for tick in range(1, 81):
+        walker.counted = walker.counted.turned(0.05)
+        walker.localiser.move(Odometry(0.05 * tick, walker.counted, 0.0, 1.0))
+    assert walker.localiser.pose.yaw_rad == pytest.approx(wrap_angle(4.0))
+    walker.truth, walker.time_s = walker.truth.turned(4.1), 4.0
+    for _ in range(10):
+        walker.go(Pose(0.03, 0.0, 0.0))
+    assert walker.off_rad < math.radians(0.5)
+
+
 def test_a_surveyed_map_tells_the_robot_where_it_is_and_leaves_it_there() -> None:
     walker = Walker(PLAIN)
     walker.walls = ROOM
@@ -197,6 +229,38 @@ def test_a_marker_that_was_moved_counts_again_at_its_new_place() -> None:
         see_markers(walker, markers)
     assert walker.off_rad < math.radians(1.0)
     assert walker.off_m < 0.1
+
+
+def test_a_push_is_not_taken_for_markers_that_were_moved() -> None:
+    markers = {7: Point(8.0, 1.0), 8: Point(8.5, -1.5), 9: Point(9.0, 0.6)}
+    walker = drive_past(markers)
+    walker.go(Pose(0.05, 0.0, 0.15), counted=ORIGIN)
+    for _ in range(6):
+        see_markers(walker, markers)
+    assert walker.off_rad < math.radians(1.5)
+
+
+@pytest.mark.parametrize("where", [(math.nan, 0.0, 0.2), (0.1, 0.0, 0.2), (math.inf, 0.0, 0.2)])
+def test_a_marker_nowhere_or_at_the_lens_is_passed_over(where: tuple[float, float, float]) -> None:
+    walker = Walker(ROOM)
+    for _ in range(3):
+        walker.localiser.see_markers(walker.time_s, [Sighting(7, where, 0.0, 0.02, 0.05)], EYE)
+    walker.localiser.see_markers(walker.time_s, [Sighting(8, (2.0, 0.0, 0.2), 0.0, math.nan, 0.05)], EYE)
+    walker.go(Pose(0.05, 0.0, 0.0))
+    assert walker.off_m < 0.01
+
+
+def test_an_image_from_before_anything_that_is_remembered_corrects_nothing() -> None:
+    walker = Walker(PLAIN)
+    markers = {7: Point(9.0, 0.5), 8: Point(9.5, -0.5)}
+    for _ in range(60):
+        walker.go(Pose(0.05, 0.0, 0.0))
+        see_markers(walker, markers)
+    for _ in range(60):
+        walker.go(Pose(0.0, 0.0, 0.0))
+    before = walker.localiser.pose
+    walker.localiser.see_markers(0.3, [sighting(number, at, ORIGIN) for number, at in markers.items()], EYE)
+    assert walker.localiser.pose == before
 
 
 def test_of_a_box_seen_from_the_front_the_face_and_both_ends_are_measured() -> None:
