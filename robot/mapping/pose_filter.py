@@ -128,14 +128,14 @@ class PoseFilter:
         lines = sight_lines(scan)
         nearest = self._lines.compare(lines, self._expected)
         lost = contested(nearest) and self._lost_views < LOST_VIEWS
-        if not lost and not self._scanned.is_new:
-            return
-        self._scanned.take()
-        self._distrust += REGAINED * (1.0 - self._distrust)
         self._lost_views = self._lost_views + 1 if lost else 0
         if lost:
             self._find_again(lines)
             return
+        if not self._scanned.is_new:
+            return
+        self._scanned.take()
+        self._distrust += REGAINED * (1.0 - self._distrust)
         same = recognised(nearest)
         self._lines.correct(same, self._expected)
         self._lines.enter(lines, nearest, self._expected)
