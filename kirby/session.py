@@ -95,8 +95,8 @@ def run_view(options: Options) -> None:
     stopping = threading.Event()
     with ExitStack() as stack:
         backstage, conversation = stack.enter_context(_conversation(options, _error_line, "1"))
+        process.stop_on_signals(stopping)  # before the address is told: who reads it may end us at once
         stack.enter_context(_shown(options.view, backstage, conversation, _error_line))
-        process.stop_on_signals(stopping)
         serve(conversation, stopping)
 
 
