@@ -33,7 +33,12 @@ def beam_points(scan: Scan, beams: NDArray[np.intp]) -> Floats:
 
 def echo_points(scan: Scan) -> Floats:
     """All echoes of ``scan``, as :func:`beam_points`, in the beams' order."""
-    return beam_points(scan, np.flatnonzero(np.isfinite(scan.ranges_m) & (scan.ranges_m <= scan.max_range_m)))
+    return beam_points(scan, _echoes(scan))
+
+
+def _echoes(scan: Scan) -> NDArray[np.intp]:
+    """The beams that met something."""
+    return np.flatnonzero(np.isfinite(scan.ranges_m) & (scan.ranges_m <= scan.max_range_m))
 
 
 def extract_segments(scan: Scan) -> tuple[Segment, ...]:
@@ -46,7 +51,7 @@ def extract_segments(scan: Scan) -> tuple[Segment, ...]:
 
 def straight_runs(scan: Scan) -> list[NDArray[np.intp]]:
     """Beams whose echoes lie along one line, by their places in the scan; each run counter-clockwise."""
-    echo = np.flatnonzero(np.isfinite(scan.ranges_m) & (scan.ranges_m <= scan.max_range_m))
+    echo = _echoes(scan)
     if len(echo) < MIN_POINTS:
         return []
     points = beam_points(scan, echo)
